@@ -1,0 +1,59 @@
+//! Typed errors.
+
+use crate::repair::Place;
+
+/// Why a region could not be meshed.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum RegionError {
+    /// A longitude or latitude is NaN or infinite, or a latitude is beyond ±90°.
+    #[error("{place}: ({lon_deg}, {lat_deg}) is not a longitude and latitude in degrees")]
+    InvalidVertex {
+        /// The vertex.
+        place: Place,
+        /// Its longitude, degrees.
+        lon_deg: f64,
+        /// Its latitude, degrees.
+        lat_deg: f64,
+    },
+    /// A ring has fewer than three distinct vertices.
+    #[error("{place}: the ring has {distinct} distinct vertices, a ring needs three")]
+    ShortRing {
+        /// The ring (vertex 0).
+        place: Place,
+        /// Distinct vertices found.
+        distinct: usize,
+    },
+    /// The ends of an edge are nearly antipodal: no unique shortest path joins them.
+    #[error("{place}: the edge to the next vertex joins nearly antipodal points")]
+    AntipodalEdge {
+        /// The vertex where the edge starts.
+        place: Place,
+    },
+}
+
+/// Why a renderer could not be made or a frame not prepared.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum RendererError {
+    /// The device lacks a feature that the options need.
+    #[error("the device lacks {0:?}, which these options need")]
+    MissingFeature(wgpu::Features),
+    /// The options contradict each other or name something that is not supported.
+    #[error("{0}")]
+    Unsupported(&'static str),
+    /// A number of the frame is NaN, infinite or out of its range.
+    #[error("frame.{0} is not finite or out of range")]
+    InvalidFrame(&'static str),
+    /// The identifier was not given out by this renderer, or its mesh was removed.
+    #[error("no such mesh in this renderer")]
+    NoSuchMesh,
+    /// The mesh has no fill with this index.
+    #[error("the mesh has {fills} fills, there is no fill {fill}")]
+    NoSuchFill {
+        /// The index asked for.
+        fill: u32,
+        /// The number of fills in the mesh.
+        fills: u32,
+    },
+}

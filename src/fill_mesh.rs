@@ -1,0 +1,99 @@
+//! The mesh that leaves the CPU: boundary arcs for walls, triangles for caps.
+
+use glam::DVec3;
+
+use crate::{curve::Curve, ellipsoid::Ellipsoid, repair::Repair};
+
+/// Regions ready for upload: everything the GPU draws from, and nothing that knows the GPU.
+///
+/// Boundary arcs are stored once, whichever pieces they bound. Vertices lie on the ellipsoid: first
+/// the boundary vertices, arc after arc, then the interior vertices of the caps.
+#[derive(Clone, Debug, Default)]
+pub struct FillMesh {
+    /// The ellipsoid that the vertices lie on.
+    pub ellipsoid: Ellipsoid,
+    /// ECEF positions, metres, at height 0.
+    pub vertices: Vec<DVec3>,
+    /// For each boundary vertex (the first `boundary.len()` of `vertices`): the true edge that
+    /// leaves it along its arc. The last vertex of an arc repeats its predecessor's curve, with t = 1.
+    pub boundary: Vec<BoundaryVertex>,
+    /// True edges that `boundary` refers to.
+    pub curves: Vec<Curve>,
+    /// Boundary arcs, in the order of their vertices.
+    pub arcs: Vec<Arc>,
+    /// Cap triangles, counter-clockwise seen from outside, as indices into `vertices`; the
+    /// triangles of a piece are contiguous, and so are the pieces of a fill.
+    pub cap_triangles: Vec<[u32; 3]>,
+    /// Connected parts of fills, in fill order.
+    pub pieces: Vec<Piece>,
+    /// One per region, in input order.
+    pub fills: Vec<Fill>,
+    /// Pairs of pieces (indices into `pieces`, smaller first) whose interiors may overlap; all other
+    /// pairs are disjoint.
+    pub overlaps: Vec<(u32, u32)>,
+    /// How far, metres, a drawn cap triangle or boundary chord may lie below the ellipsoid.
+    pub sag_m: f64,
+    /// What was repaired in the input.
+    pub repairs: Vec<Repair>,
+}
+
+/// Where a boundary vertex lies on the true edge that starts or passes there.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct BoundaryVertex {
+    /// Index into [`FillMesh::curves`].
+    pub curve: u32,
+    /// How far, metres, the drawn edge to the next vertex may lie beside the true edge, at height 0.
+    /// Zero for the last vertex of an arc.
+    pub deviation_m: f32,
+    /// Parameter of this vertex on the curve, 0 … 1. The chord to the next vertex ends at the next
+    /// vertex's `t` if that has the same curve, at 1 otherwise.
+    pub t: f64,
+}
+
+/// A run of boundary between two junctions, or a closed ring, with what lies on either side.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Arc {
+    /// Index of the first vertex in [`FillMesh::vertices`].
+    pub first_vertex: u32,
+    /// Number of vertices, at least two; a closed arc repeats its first vertex at the end.
+    pub vertex_count: u32,
+    /// Index of the piece to the left when walking along the arc, seen from outside.
+    pub left: Option<u32>,
+    /// Index of the piece to the right.
+    pub right: Option<u32>,
+    /// Where the arc lies.
+    pub bounds: Bounds,
+}
+
+/// A connected part of a fill: its boundary is closed.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Piece {
+    /// Index of the fill it belongs to.
+    pub fill: u32,
+    /// Index of its first triangle in [`FillMesh::cap_triangles`].
+    pub first_triangle: u32,
+    /// Number of its triangles.
+    pub triangle_count: u32,
+    /// Where the piece lies.
+    pub bounds: Bounds,
+}
+
+/// The pieces of one input region.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Fill {
+    /// Index of its first piece in [`FillMesh::pieces`].
+    pub first_piece: u32,
+    /// Number of its pieces; zero for a region that vanished in repair.
+    pub piece_count: u32,
+}
+
+/// A cap of the unit sphere that holds points of the ellipsoid after dividing by its radii.
+///
+/// In that scaled frame the ellipsoid is the unit sphere, which makes horizon tests exact.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Bounds {
+    /// Unit vector to the middle of the cap, in ECEF divided by the radii.
+    pub axis: DVec3,
+    /// Angular radius of the cap, radians, 0 … π.
+    pub radius_rad: f64,
+}

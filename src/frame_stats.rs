@@ -1,0 +1,28 @@
+//! What a frame drew and what it cost.
+
+use crate::options::CountTechnique;
+
+/// What one view drew in one frame, in machine-independent units.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct FrameStats {
+    /// Fills inserted.
+    pub fills: u32,
+    /// Fills with at least one piece drawn.
+    pub drawn: u32,
+    /// Visible fills left out because nothing of them can be seen.
+    pub culled: u32,
+    /// The technique that counted; differs from the one asked for where head-room forbade it.
+    pub technique: CountTechnique,
+    /// Layers of mutually disjoint fills.
+    pub layers: u32,
+    /// Draw calls, in both passes.
+    pub draws: u32,
+    /// Vertices submitted to the vertex stage (before any vertex cache).
+    pub vertices: u64,
+    /// Boundary chords replaced by finer ones for this view.
+    pub refined_chords: u32,
+    /// Bytes written to GPU buffers since the previous frame of this view.
+    pub upload_bytes: u64,
+    /// Bytes of GPU buffers that hold meshes (not the view's targets).
+    pub gpu_bytes: u64,
+}

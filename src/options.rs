@@ -1,0 +1,108 @@
+//! What the host tells the renderer: once, and every frame.
+
+use glam::{DMat3, DMat4, DVec3, UVec2};
+
+/// Which way the host's depth buffer runs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum DepthConvention {
+    /// Nearer is greater: 1 at the near plane, 0 at infinity or at the far plane.
+    #[default]
+    Reversed,
+    /// Nearer is less: 0 at the near plane, 1 at the far plane.
+    Standard,
+}
+
+/// How covered surface points are counted.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum CountTechnique {
+    /// Packed winding accumulation: every volume face once, added into a float target.
+    #[default]
+    Winding,
+    /// One two-sided stencil pass a fill: the reference.
+    Stencil,
+}
+
+/// Fixed properties of the host's frame and of the technique.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RendererOptions {
+    /// Format of the colour attachment of the pass given to [`resolve`](crate::Renderer::resolve).
+    pub color_format: wgpu::TextureFormat,
+    /// Format of the host's depth texture. Its usage must include `RENDER_ATTACHMENT`.
+    pub depth_format: wgpu::TextureFormat,
+    /// Which way the depth buffer runs.
+    pub depth: DepthConvention,
+    /// Samples a pixel of the host's depth texture and of the resolve pass: 1 or 4.
+    pub sample_count: u32,
+    /// How covered surface points are counted.
+    pub count: CountTechnique,
+}
+
+impl Default for RendererOptions {
+    fn default() -> Self {
+        Self {
+            color_format: wgpu::TextureFormat::Rgba8UnormSrgb,
+            depth_format: wgpu::TextureFormat::Depth32Float,
+            depth: DepthConvention::Reversed,
+            sample_count: 1,
+            count: CountTechnique::Winding,
+        }
+    }
+}
+
+/// The camera of one view, in double precision.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    /// Position of the eye, ECEF metres.
+    pub eye_ecef_m: DVec3,
+    /// Rotation from ECEF axes to view axes (x right, y up, looking along −z). Orthonormal.
+    pub view_from_ecef: DMat3,
+    /// The host's projection, as used for its depth buffer: clip = `clip_from_view` · view.
+    pub clip_from_view: DMat4,
+}
+
+/// Heights above the ellipsoid, metres, between which the host's surface lies.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct HeightRange {
+    /// No visible surface point lies lower.
+    pub min_m: f64,
+    /// No visible surface point lies higher.
+    pub max_m: f64,
+}
+
+/// What a view looks at in one frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frame {
+    /// The camera the host drew its globe with.
+    pub camera: Camera,
+    /// Size of the host's depth texture, pixels.
+    pub size_px: UVec2,
+    /// Between which heights the host's surface lies. Both 0: the bare ellipsoid.
+    pub terrain: HeightRange,
+    /// How far, pixels, a drawn boundary may lie from the true one; 0 asks for the best there is.
+    pub pixel_error: f64,
+    /// How far, pixels, the host's surface may lie below the given heights because its mesh is
+    /// coarse when far.
+    pub host_pixel_error: f64,
+}
+
+/// How a fill looks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FillStyle {
+    /// Red, green, blue, alpha, 0 … 1, not premultiplied, written to the colour target as they are:
+    /// linear values for an sRGB format.
+    pub color: [f32; 4],
+    /// Where fills overlap, the greater lies on top; equal ones in the order of insertion.
+    pub z_index: i32,
+    /// Whether the fill is drawn at all.
+    pub visible: bool,
+}
+
+impl Default for FillStyle {
+    fn default() -> Self {
+        Self {
+            color: [1.0, 0.8, 0.1, 0.5],
+            z_index: 0,
+            visible: true,
+        }
+    }
+}
