@@ -1,10 +1,14 @@
 //! Fills regions on a globe.
 
+#[cfg(feature = "countries")]
+pub mod countries;
 pub mod curve;
 pub mod ellipsoid;
 pub mod error;
 pub mod fill_mesh;
 pub mod frame_stats;
+#[cfg(feature = "geojson")]
+pub mod geo_json;
 pub mod geodetic;
 pub mod options;
 pub mod region;
