@@ -35,7 +35,8 @@ pub struct Arguments {
         allow_hyphen_values = true)]
     pub fov: f64,
     /// Picture size, pixels
-    #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = parse_size)]
+    #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = parse_size,
+        allow_hyphen_values = true)]
     pub size: UVec2,
     /// The picture, PNG. With no output named at all: out/world.png
     #[arg(long, value_name = "PNG")]
