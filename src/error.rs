@@ -56,4 +56,18 @@ pub enum RendererError {
         /// The number of fills in the mesh.
         fills: u32,
     },
+    /// Fills overlap deeper than there are layers.
+    #[error("overlapping fills need {needed} layers, the renderer has {most}")]
+    TooManyLayers {
+        /// Layers needed.
+        needed: usize,
+        /// Layers there are.
+        most: usize,
+    },
+    /// More fills in one layer than codes.
+    #[error("{fills} fills in one layer are more than its codes can tell apart")]
+    TooManyFills {
+        /// Fills in the layer.
+        fills: usize,
+    },
 }
