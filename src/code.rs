@@ -153,14 +153,21 @@ mod tests {
                     }
                     tried += 1;
                     let [a, b, c] = [a, b, c].map(|id| code.planes_of(id).map(i64::from));
-                    let sum: Vec<i64> = (0..4).map(|plane| a[plane] - b[plane] + c[plane]).collect();
+                    let sum: Vec<i64> =
+                        (0..4).map(|plane| a[plane] - b[plane] + c[plane]).collect();
                     let valid_sum = (1..=200).any(|id| {
-                        code.planes_of(id).iter().zip(&sum).all(|(&p, &s)| i64::from(p) == s)
+                        code.planes_of(id)
+                            .iter()
+                            .zip(&sum)
+                            .all(|(&p, &s)| i64::from(p) == s)
                     });
                     valid += u32::from(valid_sum);
                 }
             }
         }
-        assert!(f64::from(valid) < 0.04 * f64::from(tried), "{valid} of {tried}");
+        assert!(
+            f64::from(valid) < 0.04 * f64::from(tried),
+            "{valid} of {tried}"
+        );
     }
 }

@@ -1,7 +1,6 @@
 //! Recording the count passes.
 
 use crate::{
-    fill_mesh::FillMesh,
     gpu_mesh::GpuMesh,
     options::CountTechnique,
     pipelines::{Input, Key, Pipelines, Planes},
@@ -14,7 +13,6 @@ use crate::{
 /// A mesh as one view draws it.
 #[derive(Clone, Copy)]
 pub(crate) struct Drawn<'a> {
-    pub mesh: &'a FillMesh,
     pub gpu: &'a GpuMesh,
     pub view: &'a MeshView,
 }
@@ -64,6 +62,59 @@ pub(crate) fn keys(
     keys
 }
 
+/// What the count passes of one mesh cost.
+#[derive(Default)]
+pub(crate) struct Cost {
+    pub draws: u32,
+    pub vertices: u64,
+}
+
+impl Cost {
+    fn add(&mut self, vertices: usize, times: u64) {
+        self.draws += times as u32;
+        self.vertices += vertices as u64 * times;
+    }
+}
+
+/// Counts what `Recorder` records.
+pub(crate) fn cost(view: &MeshView) -> Cost {
+    let mut cost = Cost::default();
+    if view.volumes.is_empty() {
+        for draws in &view.selection.layers {
+            for run in &draws.caps {
+                // One draw of two instances.
+                cost.draws += 1;
+                cost.vertices += 6 * run.triangles.len() as u64;
+            }
+            draws
+                .walls
+                .iter()
+                .for_each(|slots| cost.add(2 * slots.len(), 1));
+            draws
+                .patches
+                .iter()
+                .for_each(|run| cost.add(run.indices.len(), 1));
+        }
+    }
+    // Count and cover draw the same.
+    for volume in view.volumes.iter().flatten() {
+        for triangles in &volume.caps {
+            cost.add(3 * triangles.len(), 4);
+        }
+        for walls in [&volume.left_of, &volume.right_of] {
+            walls
+                .slots
+                .iter()
+                .for_each(|slots| cost.add(2 * slots.len(), 2));
+            walls
+                .patches
+                .iter()
+                .for_each(|indices| cost.add(indices.len(), 2));
+        }
+    }
+    cost
+}
+
 impl Recorder<'_> {
     pub(crate) fn record(&self, encoder: &mut wgpu::CommandEncoder, depth: &wgpu::TextureView) {
         match self.prepared.technique {
@@ -103,7 +154,10 @@ impl Recorder<'_> {
             unclipped: self.prepared.unclipped,
         };
         for drawn in &self.meshes {
-            let (draws, layer) = (&drawn.view.selection.layers[index], &drawn.view.layers[index]);
+            let (draws, layer) = (
+                &drawn.view.selection.layers[index],
+                &drawn.view.layers[index],
+            );
             pass.set_bind_group(0, &drawn.view.frame_group, &[]);
             pass.set_bind_group(1, &layer.mesh_group, &[]);
             self.draw_caps(&mut pass, count(Input::Caps), drawn, draws);

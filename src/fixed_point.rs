@@ -19,7 +19,12 @@ pub(crate) type FixedVertex = [i32; 4];
 /// Encodes an ECEF position, metres, within ±1.6·10⁷ m an axis.
 pub(crate) fn encode(ecef_m: DVec3) -> FixedVertex {
     let [x, y, z] = ecef_m.to_array().map(split);
-    [x.0, y.0, z.0, x.1 | y.1 << FRACTION_BITS | z.1 << (2 * FRACTION_BITS)]
+    [
+        x.0,
+        y.0,
+        z.0,
+        x.1 | y.1 << FRACTION_BITS | z.1 << (2 * FRACTION_BITS),
+    ]
 }
 
 fn split(component_m: f64) -> (i32, i32) {
@@ -62,7 +67,9 @@ mod tests {
 
     fn decode_relative_m(vertex: FixedVertex, eye: &FixedEye) -> DVec3 {
         DVec3::from_array(std::array::from_fn(|axis| {
-            let steps = vertex[axis].checked_sub(eye.steps[axis]).expect("no overflow");
+            let steps = vertex[axis]
+                .checked_sub(eye.steps[axis])
+                .expect("no overflow");
             let fraction = (vertex[3] >> (10 * axis)) & 1023;
             let below = (fraction - eye.fractions[axis]) as f32 / 131_072.0;
             let above = steps as f32 / 128.0;

@@ -25,7 +25,11 @@ impl GpuMesh {
         let layout = SlotLayout::new(mesh);
         let buffer = |label, contents: &[u8], usage| {
             // Empty bindings are not allowed: a mesh without arcs still binds one word.
-            let contents = if contents.is_empty() { &[0; 16] } else { contents };
+            let contents = if contents.is_empty() {
+                &[0; 16]
+            } else {
+                contents
+            };
             device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
                 label: Some(label),
                 contents,
@@ -39,8 +43,16 @@ impl GpuMesh {
             .map(|arc| [arc.left, arc.right].map(|piece| piece.map_or(0, |piece| piece + 1)))
             .collect();
         Self {
-            vertices: buffer("globefill vertices", bytemuck::cast_slice(&layout.vertices), storage),
-            arc_of: buffer("globefill arc of slot", bytemuck::cast_slice(&layout.arc_of), storage),
+            vertices: buffer(
+                "globefill vertices",
+                bytemuck::cast_slice(&layout.vertices),
+                storage,
+            ),
+            arc_of: buffer(
+                "globefill arc of slot",
+                bytemuck::cast_slice(&layout.arc_of),
+                storage,
+            ),
             arcs: buffer("globefill arcs", bytemuck::cast_slice(&arcs), storage),
             cap_indices: buffer(
                 "globefill caps",

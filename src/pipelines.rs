@@ -176,8 +176,11 @@ impl Pipelines {
                 if flipped {
                     recipe.primitive.front_face = wgpu::FrontFace::Cw;
                 }
-                recipe.depth_stencil =
-                    Some(depth_stencil(STENCIL_FORMAT, self.behind(), counting_stencil()));
+                recipe.depth_stencil = Some(depth_stencil(
+                    STENCIL_FORMAT,
+                    self.behind(),
+                    counting_stencil(),
+                ));
                 self.build(device, &recipe)
             }
             Key::Cover {

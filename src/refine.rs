@@ -48,12 +48,6 @@ pub(crate) struct RefinedChord {
 }
 
 impl Patch {
-    pub(crate) fn clear(&mut self) {
-        self.vertices.clear();
-        self.indices.clear();
-        self.chords.clear();
-    }
-
     /// Refines what `sight` needs of the arc.
     pub(crate) fn refine_arc(&mut self, mesh: &FillMesh, arc_index: u32, sight: &Sight) {
         let arc = &mesh.arcs[arc_index as usize];
@@ -104,9 +98,12 @@ impl Patch {
         let top_m = sight.extrusion.top_at_m(distance_m);
         let seen_from_m = sight.distance_to_wall_m(surface_m, surface_m);
         let middle_m = sight.nearest_surface_height_m();
-        let normal = mesh_normal(sight, surface_m);
+        let normal = sight.ellipsoid.normal_at_surface(surface_m);
         let mut corners = vec![4 * base + BOTTOM];
-        for cut_m in [middle_m - REACH * seen_from_m, middle_m + REACH * seen_from_m] {
+        for cut_m in [
+            middle_m - REACH * seen_from_m,
+            middle_m + REACH * seen_from_m,
+        ] {
             if cut_m > bottom_m + 1.0 && cut_m < top_m - 1.0 {
                 corners.push(4 * self.vertices.len() as u32 + AS_IS);
                 self.vertices.push(encode(surface_m + normal * cut_m));
@@ -221,7 +218,14 @@ fn true_edge_points(mesh: &FillMesh, vertex: u32, sight: &Sight) -> Vec<DVec3> {
     let curve = mesh.curves[from.curve as usize].on(&mesh.ellipsoid);
     let mut points_m = vec![mesh.vertices[vertex]];
     let start = (from.t, mesh.vertices[vertex]);
-    halve(&curve, start, (end_t, mesh.vertices[vertex + 1]), sight, MAX_HALVINGS, &mut points_m);
+    halve(
+        &curve,
+        start,
+        (end_t, mesh.vertices[vertex + 1]),
+        sight,
+        MAX_HALVINGS,
+        &mut points_m,
+    );
     points_m
 }
 
@@ -235,8 +239,8 @@ fn halve(
     points_m: &mut Vec<DVec3>,
 ) {
     let limits = Limits::at(sight, sight.distance_to_wall_m(a.1, b.1));
-    let too_coarse = halvings > 0
-        && limits.too_coarse(a.1.distance(b.1), curve.deviation_bound_m(a.0, b.0));
+    let too_coarse =
+        halvings > 0 && limits.too_coarse(a.1.distance(b.1), curve.deviation_bound_m(a.0, b.0));
     if !too_coarse {
         points_m.push(b.1);
         return;
@@ -253,8 +257,4 @@ fn mesh_deviation_m(mesh: &FillMesh, arc: &Arc) -> f64 {
         .iter()
         .fold(0.0, |most: f32, vertex| most.max(vertex.deviation_m))
         .into()
-}
-
-fn mesh_normal(sight: &Sight, surface_m: DVec3) -> DVec3 {
-    sight.ellipsoid.normal_at_surface(surface_m)
 }

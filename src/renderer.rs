@@ -17,7 +17,7 @@ use crate::{
     select::Selection,
     sight::Sight,
     targets::{Targets, TargetsKey},
-    view::{MeshView, Prepared, View},
+    view::{MeshView, Prepared, Upload, View},
     volumes::volumes,
 };
 
@@ -93,7 +93,11 @@ impl Renderer {
         Ok(Self {
             device: device.clone(),
             options,
-            mantissa: if single { Mantissa::Single } else { Mantissa::Half },
+            mantissa: if single {
+                Mantissa::Single
+            } else {
+                Mantissa::Half
+            },
             pipelines: Pipelines::new(device, options),
             meshes: BTreeMap::new(),
             next_id: 0,
@@ -143,7 +147,11 @@ impl Renderer {
         if !(style.color.iter().all(|part| part.is_finite()) && (0.0..=1.0).contains(&alpha)) {
             return Err(RendererError::InvalidStyle { fill });
         }
-        let styles = &mut self.meshes.get_mut(&mesh).ok_or(RendererError::NoSuchMesh)?.styles;
+        let styles = &mut self
+            .meshes
+            .get_mut(&mesh)
+            .ok_or(RendererError::NoSuchMesh)?
+            .styles;
         let fills = styles.len() as u32;
         let current = styles
             .get_mut(fill as usize)
@@ -179,33 +187,24 @@ impl Renderer {
             prepared.stats.upload_bytes = 0;
             return Ok(prepared.stats);
         }
-        let table_bytes = self.ensure_layers()?;
-        let selections = self.select(frame)?;
+        let (table_bytes, selections) = self.layers_and_selections(frame)?;
         let resolved = self.resolved()?;
-        let technique = self.frame_technique(resolved, &selections)?;
+        let sight = selections.first().map(|selected| &selected.sight);
         let mut prepared = Prepared {
             frame: *frame,
             revision: self.revision,
-            technique,
-            mirrored: false,
-            unclipped: false,
-            stats: FrameStats {
-                technique,
-                layers: resolved.layering.layers.len() as u32,
-                upload_bytes: table_bytes,
-                ..Default::default()
-            },
+            technique: resolved.layering.technique,
+            mirrored: sight.is_some_and(|sight| sight.mirrored),
+            unclipped: sight.is_some_and(|sight| sight.far_plane),
+            stats: FrameStats::default(),
         };
-        if let Some((_, sight, _)) = selections.first() {
-            prepared.mirrored = sight.mirrored;
-            prepared.unclipped = sight.far_plane;
-            if sight.far_plane {
-                require(self.device.features(), wgpu::Features::DEPTH_CLIP_CONTROL)?;
-            }
+        if prepared.unclipped {
+            require(self.device.features(), wgpu::Features::DEPTH_CLIP_CONTROL)?;
         }
-        self.ensure_targets(view, frame, technique)?;
-        self.ensure_pipelines(view, &prepared, &selections);
-        self.upload(queue, view, selections, &mut prepared);
+        self.ensure_targets(view, frame)?;
+        self.ensure_pipelines(&prepared, &selections)?;
+        prepared.stats.upload_bytes = table_bytes + self.upload(queue, view, selections);
+        self.fill_stats(view, &mut prepared);
         view.prepared = Some(prepared);
         Ok(prepared.stats)
     }
@@ -228,7 +227,6 @@ impl Renderer {
             .iter()
             .filter_map(|(id, resident)| {
                 view.meshes.get(id).map(|view| Drawn {
-                    mesh: &resident.mesh,
                     gpu: &resident.gpu,
                     view,
                 })
@@ -260,11 +258,26 @@ impl Renderer {
         }
     }
 
-    /// Layers and their tables; returns the bytes uploaded for them.
-    fn ensure_layers(&mut self) -> Result<u64, RendererError> {
-        if self.layering.is_some() {
-            return Ok(0);
+    /// Layers of the current styles and what the frame shows of them. Falls back to the stencil where
+    /// refined walls leave no head-room for winding sums. The number is of bytes uploaded.
+    fn layers_and_selections(
+        &mut self,
+        frame: &Frame,
+    ) -> Result<(u64, Vec<Selected>), RendererError> {
+        let mut bytes = 0;
+        if self.layering.is_none() {
+            bytes += self.assign_layers(self.options.count);
         }
+        let selections = self.select(frame)?;
+        if self.has_head_room(&selections)? {
+            return Ok((bytes, selections));
+        }
+        bytes += self.assign_layers(CountTechnique::Stencil);
+        Ok((bytes, self.select(frame)?))
+    }
+
+    /// Makes the layers and their tables; returns the bytes uploaded.
+    fn assign_layers(&mut self, technique: CountTechnique) -> u64 {
         let styled: Vec<Styled<'_>> = self
             .meshes
             .values()
@@ -273,11 +286,35 @@ impl Renderer {
                 styles: &resident.styles,
             })
             .collect();
-        let layering = Layering::assign(&styled, self.options.count, self.mantissa);
-        let resolved = layering.map(|layering| self.with_tables(layering, &styled));
-        let bytes = resolved.as_ref().map_or(0, |resolved| resolved.table_bytes);
-        self.layering = Some(resolved);
-        Ok(bytes)
+        let layering = Layering::assign(&styled, technique, self.mantissa).and_then(|layering| {
+            if layering.technique == CountTechnique::Stencil {
+                require(
+                    self.device.features(),
+                    wgpu::Features::DEPTH32FLOAT_STENCIL8,
+                )?;
+            }
+            Ok(self.with_tables(layering, &styled))
+        });
+        let bytes = layering.as_ref().map_or(0, |resolved| resolved.table_bytes);
+        self.layering = Some(layering);
+        bytes
+    }
+
+    /// Whether the sums of this frame, refined walls included, are proven exact.
+    fn has_head_room(&self, selections: &[Selected]) -> Result<bool, RendererError> {
+        let resolved = self.resolved()?;
+        if resolved.layering.technique == CountTechnique::Stencil {
+            return Ok(true);
+        }
+        let refined: u64 = selections
+            .iter()
+            .map(|selected| selected.selection.patch.indices.len() as u64 / 3)
+            .sum();
+        Ok(resolved.layering.layers.iter().all(|layer| {
+            layer
+                .code
+                .leaves_room(layer.largest_sum, refined, resolved.mantissa)
+        }))
     }
 
     fn with_tables(&self, layering: Layering, styled: &[Styled<'_>]) -> Resolved {
@@ -306,19 +343,195 @@ impl Renderer {
         }
     }
 
-    fn select(&self, frame: &Frame) -> Result<Vec<(MeshId, Sight, Selection)>, RendererError> {
+    fn select(&self, frame: &Frame) -> Result<Vec<Selected>, RendererError> {
         let layering = &self.resolved()?.layering;
+        let layer_count = layering.layers.len();
         self.meshes
             .iter()
             .zip(&layering.codes)
             .map(|((&id, resident), codes)| {
                 let mesh = &resident.mesh;
                 let sight = Sight::new(mesh.ellipsoid, mesh.sag_m, frame, &self.options)?;
-                let selection = Selection::of(mesh, codes, layering.layers.len(), &sight);
-                Ok((id, sight, selection))
+                Ok(Selected {
+                    id,
+                    selection: Selection::of(mesh, codes, layer_count, &sight),
+                    sight,
+                })
             })
             .collect()
     }
+
+    fn ensure_targets(&self, view: &mut View, frame: &Frame) -> Result<(), RendererError> {
+        let resolved = self.resolved()?;
+        let key = TargetsKey {
+            size_px: frame.size_px,
+            planes: resolved.planes(),
+            stencil: resolved.layering.technique == CountTechnique::Stencil,
+            layer_revision: self.revision,
+        };
+        if view
+            .targets
+            .as_ref()
+            .is_none_or(|targets| targets.key != key)
+        {
+            let samples = self.options.sample_count;
+            let targets = Targets::new(
+                &self.device,
+                &self.pipelines,
+                samples,
+                &resolved.tables,
+                key,
+            );
+            view.targets = Some(targets);
+        }
+        Ok(())
+    }
+
+    fn ensure_pipelines(
+        &mut self,
+        prepared: &Prepared,
+        selections: &[Selected],
+    ) -> Result<(), RendererError> {
+        let planes = self.resolved()?.planes();
+        let draws = |index: usize| {
+            let layer = move |selected: &Selected| selected.selection.layers[index].clone();
+            selections.iter().map(layer)
+        };
+        for (index, planes) in planes.into_iter().enumerate() {
+            let mut inputs = Vec::new();
+            for (input, used) in [
+                (
+                    Input::Caps,
+                    draws(index).any(|draws| !draws.caps.is_empty()),
+                ),
+                (
+                    Input::Walls,
+                    draws(index).any(|draws| !draws.walls.is_empty()),
+                ),
+                (
+                    Input::Patches,
+                    draws(index).any(|draws| !draws.patches.is_empty()),
+                ),
+            ] {
+                if used {
+                    inputs.push(input);
+                }
+            }
+            let keys = count::keys(prepared.technique, planes, prepared.unclipped, &inputs);
+            for key in keys.into_iter().chain([Key::Resolve]) {
+                self.pipelines.ensure(&self.device, key);
+            }
+        }
+        Ok(())
+    }
+
+    /// Uploads what the view's selection changes; returns the bytes.
+    fn upload(&self, queue: &wgpu::Queue, view: &mut View, selections: Vec<Selected>) -> u64 {
+        view.meshes.retain(|id, _| self.meshes.contains_key(id));
+        let mut bytes = 0;
+        for selected in selections {
+            let resident = &self.meshes[&selected.id];
+            let mesh_view = view
+                .meshes
+                .entry(selected.id)
+                .or_insert_with(|| MeshView::new(&self.device, &self.pipelines));
+            bytes += mesh_view.upload(
+                &Upload {
+                    device: &self.device,
+                    queue,
+                    pipelines: &self.pipelines,
+                    mesh: &resident.gpu,
+                },
+                &selected.sight,
+                selected.selection,
+            );
+        }
+        bytes
+    }
+
+    /// Volumes for the stencil, and the frame's statistics.
+    fn fill_stats(&self, view: &mut View, prepared: &mut Prepared) {
+        let stats = &mut prepared.stats;
+        stats.technique = prepared.technique;
+        for (id, resident) in &self.meshes {
+            stats.fills += resident.mesh.fills.len() as u32;
+            stats.gpu_bytes += resident.gpu.size_bytes();
+            let Some(mesh_view) = view.meshes.get_mut(id) else {
+                continue;
+            };
+            mesh_view.volumes = match prepared.technique {
+                CountTechnique::Winding => Vec::new(),
+                CountTechnique::Stencil => mesh_view
+                    .selection
+                    .layers
+                    .iter()
+                    .map(|draws| volumes(&resident.mesh, draws))
+                    .collect(),
+            };
+            let cost = count::cost(mesh_view);
+            stats.drawn += mesh_view.selection.fills_drawn;
+            stats.culled += mesh_view.selection.fills_culled;
+            stats.refined_chords += mesh_view.selection.patch.chords.len() as u32;
+            stats.draws += cost.draws;
+            stats.vertices += cost.vertices;
+        }
+        stats.layers = view
+            .targets
+            .as_ref()
+            .map_or(0, |targets| targets.layers.len() as u32);
+        // Resolve draws a triangle a layer; the stencil copies the depth once.
+        stats.draws += stats.layers;
+        if prepared.technique == CountTechnique::Stencil && stats.layers > 0 {
+            stats.draws += 1;
+        }
+    }
+}
+
+/// What a frame shows of one mesh.
+struct Selected {
+    id: MeshId,
+    sight: Sight,
+    selection: Selection,
+}
+
+impl Resolved {
+    fn planes(&self) -> Vec<Planes> {
+        self.layering
+            .layers
+            .iter()
+            .map(|layer| Planes::new(layer.code.planes, self.mantissa))
+            .collect()
+    }
+}
+
+/// The head of `Layer` in resolve.wgsl; premultiplied colours follow.
+#[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
+#[repr(C)]
+pub(crate) struct LayerHead {
+    pub fills: u32,
+    pub base: u32,
+    pub digits: u32,
+    pub planes: u32,
+}
+
+fn layer_table(device: &wgpu::Device, layer: &Layer, styled: &[Styled<'_>]) -> wgpu::Buffer {
+    let head = LayerHead {
+        fills: layer.code.fills,
+        base: layer.code.base,
+        digits: layer.code.digits,
+        planes: layer.code.planes,
+    };
+    let mut bytes = bytemuck::bytes_of(&head).to_vec();
+    for fill in &layer.fills {
+        let [red, green, blue, alpha] = styled[fill.mesh].styles[fill.fill as usize].color;
+        let premultiplied = [red * alpha, green * alpha, blue * alpha, alpha];
+        bytes.extend_from_slice(bytemuck::bytes_of(&premultiplied));
+    }
+    device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+        label: Some("globefill layer"),
+        contents: &bytes,
+        usage: wgpu::BufferUsages::STORAGE,
+    })
 }
 
 fn require(features: wgpu::Features, needed: wgpu::Features) -> Result<(), RendererError> {

@@ -99,7 +99,8 @@ impl Selection {
     ) {
         for fill in &mesh.fills {
             let pieces = fill.first_piece as usize..(fill.first_piece + fill.piece_count) as usize;
-            let any = |codes: &[Option<PieceCode>]| codes[pieces.clone()].iter().any(Option::is_some);
+            let any =
+                |codes: &[Option<PieceCode>]| codes[pieces.clone()].iter().any(Option::is_some);
             if any(shown) {
                 self.fills_drawn += 1;
             } else if any(codes) {
@@ -136,12 +137,7 @@ fn cap_runs(mesh: &FillMesh, codes: &[u32], sight: &Sight) -> Vec<CapRun> {
     runs
 }
 
-fn wall_runs(
-    mesh: &FillMesh,
-    codes: &[u32],
-    arc_seen: &[bool],
-    patch: &Patch,
-) -> Vec<Range<u32>> {
+fn wall_runs(mesh: &FillMesh, codes: &[u32], arc_seen: &[bool], patch: &Patch) -> Vec<Range<u32>> {
     let mut runs: Vec<Range<u32>> = Vec::new();
     let mut refined = patch.chords.iter().peekable();
     for (index, arc) in (0..).zip(&mesh.arcs) {

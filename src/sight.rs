@@ -156,8 +156,8 @@ impl Sight {
         let reach = 2.0 * (0.5 * bounds.radius_rad.min(std::f64::consts::PI)).sin();
         let on_surface_m = reach * radii_m.max_element();
         let farthest_m = middle_m.length() + on_surface_m;
-        let height_m = (self.extrusion.top_at_m(farthest_m))
-            .max(-self.extrusion.bottom_at_m(farthest_m));
+        let height_m =
+            (self.extrusion.top_at_m(farthest_m)).max(-self.extrusion.bottom_at_m(farthest_m));
         (middle_m, on_surface_m + height_m)
     }
 
@@ -213,7 +213,10 @@ fn validate(frame: &Frame) -> Result<(), RendererError> {
                 && frame.terrain.min_m <= frame.terrain.max_m,
             "terrain",
         ),
-        (frame.pixel_error >= 0.0 && frame.pixel_error.is_finite(), "pixel_error"),
+        (
+            frame.pixel_error >= 0.0 && frame.pixel_error.is_finite(),
+            "pixel_error",
+        ),
         (
             frame.host_pixel_error >= 0.0 && frame.host_pixel_error.is_finite(),
             "host_pixel_error",

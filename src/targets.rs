@@ -72,8 +72,7 @@ impl Targets {
                         texture("globefill winding", format, usage)
                     })
                     .collect();
-                let resolve_group =
-                    resolve_group(device, pipelines, sample_count, table, &planes);
+                let resolve_group = resolve_group(device, pipelines, sample_count, table, &planes);
                 LayerTarget {
                     planes,
                     resolve_group,

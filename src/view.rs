@@ -3,7 +3,6 @@
 use std::collections::HashMap;
 
 use crate::{
-    code::Mantissa,
     fixed_point::FixedEye,
     frame_stats::FrameStats,
     gpu_mesh::GpuMesh,
@@ -33,7 +32,6 @@ pub(crate) struct Prepared {
     pub frame: Frame,
     pub revision: u64,
     pub technique: CountTechnique,
-    pub mantissa: Mantissa,
     pub mirrored: bool,
     pub unclipped: bool,
     pub stats: FrameStats,
@@ -49,6 +47,14 @@ pub(crate) struct MeshView {
     patch_vertices: StreamBuffer,
     pub patch_indices: StreamBuffer,
     pub layers: Vec<LayerView>,
+}
+
+/// Where a view uploads to, and the mesh it draws.
+pub(crate) struct Upload<'a> {
+    pub device: &'a wgpu::Device,
+    pub queue: &'a wgpu::Queue,
+    pub pipelines: &'a Pipelines,
+    pub mesh: &'a GpuMesh,
 }
 
 /// Codes of one mesh in one layer.
@@ -89,19 +95,15 @@ impl MeshView {
     }
 
     /// Uploads what changed; returns the bytes.
-    pub(crate) fn upload(
-        &mut self,
-        device: &wgpu::Device,
-        queue: &wgpu::Queue,
-        pipelines: &Pipelines,
-        gpu_mesh: &GpuMesh,
-        sight: &Sight,
-        selection: Selection,
-    ) -> u64 {
+    pub(crate) fn upload(&mut self, to: &Upload<'_>, sight: &Sight, selection: Selection) -> u64 {
+        let (device, queue) = (to.device, to.queue);
         let mut bytes = 0;
         let uniform = FrameUniform::new(sight);
         // The uniform never grows, so its bind group stays.
-        bytes += self.uniform.write(device, queue, bytemuck::bytes_of(&uniform)).0;
+        bytes += self
+            .uniform
+            .write(device, queue, bytemuck::bytes_of(&uniform))
+            .0;
         let patch = &selection.patch;
         let (uploaded, patch_moved) =
             self.patch_vertices
@@ -119,13 +121,13 @@ impl MeshView {
                 let (uploaded, moved) = layer.codes.write(device, queue, codes);
                 bytes += uploaded;
                 if moved || patch_moved {
-                    layer.rebind(device, pipelines, gpu_mesh, patch_vertices);
+                    layer.rebind(to, patch_vertices);
                 }
             } else {
                 let mut stream =
                     StreamBuffer::new(device, "globefill codes", wgpu::BufferUsages::STORAGE);
                 bytes += stream.write(device, queue, codes).0;
-                let layer = LayerView::new(device, pipelines, gpu_mesh, patch_vertices, stream);
+                let layer = LayerView::new(to, patch_vertices, stream);
                 self.layers.push(layer);
             }
         }
@@ -135,43 +137,23 @@ impl MeshView {
 }
 
 impl LayerView {
-    fn new(
-        device: &wgpu::Device,
-        pipelines: &Pipelines,
-        mesh: &GpuMesh,
-        patch_vertices: &wgpu::Buffer,
-        codes: StreamBuffer,
-    ) -> Self {
-        let group = |vertices| mesh_group(device, pipelines, mesh, vertices, &codes.buffer);
+    fn new(to: &Upload<'_>, patch_vertices: &wgpu::Buffer, codes: StreamBuffer) -> Self {
+        let group = |vertices| mesh_group(to, vertices, &codes.buffer);
         Self {
-            mesh_group: group(&mesh.vertices),
+            mesh_group: group(&to.mesh.vertices),
             patch_group: group(patch_vertices),
             codes,
         }
     }
 
-    fn rebind(
-        &mut self,
-        device: &wgpu::Device,
-        pipelines: &Pipelines,
-        mesh: &GpuMesh,
-        patch_vertices: &wgpu::Buffer,
-    ) {
-        let group = |vertices| mesh_group(device, pipelines, mesh, vertices, &self.codes.buffer);
-        let (mesh_group, patch_group) = (group(&mesh.vertices), group(patch_vertices));
-        self.mesh_group = mesh_group;
-        self.patch_group = patch_group;
+    fn rebind(&mut self, to: &Upload<'_>, patch_vertices: &wgpu::Buffer) {
+        self.mesh_group = mesh_group(to, &to.mesh.vertices, &self.codes.buffer);
+        self.patch_group = mesh_group(to, patch_vertices, &self.codes.buffer);
     }
 }
 
-fn mesh_group(
-    device: &wgpu::Device,
-    pipelines: &Pipelines,
-    mesh: &GpuMesh,
-    vertices: &wgpu::Buffer,
-    codes: &wgpu::Buffer,
-) -> wgpu::BindGroup {
-    let buffers = [vertices, &mesh.arc_of, &mesh.arcs, codes];
+fn mesh_group(to: &Upload<'_>, vertices: &wgpu::Buffer, codes: &wgpu::Buffer) -> wgpu::BindGroup {
+    let buffers = [vertices, &to.mesh.arc_of, &to.mesh.arcs, codes];
     let entries: Vec<_> = (0..)
         .zip(buffers)
         .map(|(binding, buffer)| wgpu::BindGroupEntry {
@@ -179,9 +161,9 @@ fn mesh_group(
             resource: buffer.as_entire_binding(),
         })
         .collect();
-    device.create_bind_group(&wgpu::BindGroupDescriptor {
+    to.device.create_bind_group(&wgpu::BindGroupDescriptor {
         label: Some("globefill mesh"),
-        layout: &pipelines.mesh_layout,
+        layout: &to.pipelines.mesh_layout,
         entries: &entries,
     })
 }

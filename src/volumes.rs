@@ -103,7 +103,10 @@ impl Builder<'_> {
             self.volume(piece).left_of.patches.push(run.indices.clone());
         }
         if let Some(piece) = right {
-            self.volume(piece).right_of.patches.push(run.indices.clone());
+            self.volume(piece)
+                .right_of
+                .patches
+                .push(run.indices.clone());
         }
     }
 
