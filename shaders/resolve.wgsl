@@ -22,7 +22,10 @@ const INVALID: u32 = 0xffffffffu;
 fn planes_of(id: u32) -> vec4<f32> {
     var digits = vec4<u32>(0u);
     digits[0] = id % layer.base;
-    let checks = vec2<u32>((id * 2654435761u) >> 27u, (id * 2246822519u) >> 27u);
+    var mixed = (id ^ (id >> 16u)) * 0x7feb352du;
+    mixed = (mixed ^ (mixed >> 15u)) * 0x846ca68bu;
+    mixed ^= mixed >> 16u;
+    let checks = vec2<u32>(mixed % 32u, mixed / 32u % 32u);
     if layer.digits > 1u {
         digits[1] = (id / layer.base) % layer.base;
     }

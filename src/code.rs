@@ -87,10 +87,11 @@ impl Code {
 
     /// The digits and checks that make up the code of `id`; the same as `planes_of` in resolve.wgsl.
     pub(crate) fn planes_of(&self, id: u32) -> [u32; MAX_PLANES as usize] {
-        let checks = [
-            id.wrapping_mul(2_654_435_761) >> 27,
-            id.wrapping_mul(2_246_822_519) >> 27,
-        ];
+        // Far from linear in the id, so that A − B + C rarely checks (lowbias32 of C. Wellons).
+        let mut mixed = (id ^ (id >> 16)).wrapping_mul(0x7feb_352d);
+        mixed = (mixed ^ (mixed >> 15)).wrapping_mul(0x846c_a68b);
+        mixed ^= mixed >> 16;
+        let checks = [mixed % CHECK_BASE, mixed / CHECK_BASE % CHECK_BASE];
         let mut planes = [0; MAX_PLANES as usize];
         let mut rest = id;
         for digit in &mut planes[..self.digits as usize] {
