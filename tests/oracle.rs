@@ -179,30 +179,37 @@ fn poles_are_ordinary_points() {
             &[(0.0, -90.0), (9.0, -86.0)],
             &[(123.0, -70.0), (0.0, 90.0)],
         );
-        // A vertex at the pole, however its longitude is written.
-        for pole_lon in [0.0, 45.0, -100.0] {
-            let mut wedge = straight(&[(0.0, 60.0), (90.0, 60.0), (pole_lon, 90.0)]);
+        // A vertex at the pole: straight edges keep its written longitude, others need none.
+        let tops: &[&[f64]] = if kind == EdgeKind::Straight {
+            &[&[90.0, 0.0]]
+        } else {
+            &[&[0.0], &[45.0], &[-100.0], &[90.0, 0.0]]
+        };
+        for (top, sign) in tops.iter().flat_map(|&top| [(top, 1.0), (top, -1.0)]) {
+            let mut points = vec![(0.0, 60.0 * sign), (90.0, 60.0 * sign)];
+            points.extend(top.iter().map(|&lon_deg| (lon_deg, 90.0 * sign)));
+            let mut wedge = straight(&points);
             wedge.edges = kind;
             assert_inside(
                 &wedge,
-                &[(45.0, 80.0), (1.0, 89.9), (89.0, 61.0), (45.0, 89.999_999)],
+                &[(45.0, 80.0), (1.0, 89.9), (89.0, 61.5), (45.0, 89.999_999)]
+                    .map(|(x, y)| (x, y * sign)),
                 &[
                     (-1.0, 89.9),
                     (91.0, 80.0),
                     (180.0, 89.0),
                     (-135.0, 60.0),
                     (45.0, 30.0),
-                ],
-            );
-            let mut wedge = straight(&[(0.0, -60.0), (90.0, -60.0), (pole_lon, -90.0)]);
-            wedge.edges = kind;
-            assert_inside(
-                &wedge,
-                &[(45.0, -80.0), (1.0, -89.9), (45.0, -89.999_999)],
-                &[(-1.0, -89.9), (91.0, -80.0), (45.0, -30.0), (0.0, 90.0)],
+                ]
+                .map(|(x, y)| (x, y * sign)),
             );
         }
     }
+    assert_inside(
+        &straight(&[(0.0, 60.0), (90.0, 60.0), (45.0, 90.0)]),
+        &[(45.0, 89.0), (20.0, 70.0), (70.0, 70.0)],
+        &[(10.0, 70.0), (80.0, 70.0), (44.0, 89.9), (-90.0, 89.9)],
+    );
     // Antarctica as flat maps close it, and the whole parallel that a difference of 360° is.
     let flat = [
         (-180.0, -80.0),

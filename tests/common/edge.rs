@@ -68,40 +68,27 @@ impl TrueEdge {
     pub fn between(figure: &Figure, kind: EdgeKind, from: LonLat, to: LonLat) -> Vec<Self> {
         let (start, end) = (canonical(from), canonical(to));
         let written_deg = to.lon_deg - from.lon_deg;
-        if start == end {
-            let whole_parallel = kind == EdgeKind::Straight
-                && written_deg.abs() == 360.0
-                && start.lat_deg.abs() < 90.0;
-            return if whole_parallel {
-                vec![Self::new(figure, start, end, written_deg, Shape::Straight)]
-            } else {
-                Vec::new()
-            };
+        if kind == EdgeKind::Straight {
+            return Self::straight(figure, from, to).into_iter().collect();
         }
-        // Every longitude names a pole, so the edge to it can only be the other end's meridian.
+        if start == end {
+            return Vec::new();
+        }
+        // Geodesics and rhumb lines reach a pole along the other end's meridian.
         if start.lat_deg.abs() == 90.0 {
-            return vec![Self::meridian(
-                figure,
-                LonLat::new(end.lon_deg, start.lat_deg),
-                end,
-            )];
+            let start = LonLat::new(end.lon_deg, start.lat_deg);
+            return vec![Self::meridian(figure, start, end)];
         }
         if end.lat_deg.abs() == 90.0 {
-            return vec![Self::meridian(
-                figure,
-                start,
-                LonLat::new(start.lon_deg, end.lat_deg),
-            )];
+            let end = LonLat::new(start.lon_deg, end.lat_deg);
+            return vec![Self::meridian(figure, start, end)];
         }
         if start.lon_deg == end.lon_deg {
             return vec![Self::meridian(figure, start, end)];
         }
-        let mut span_deg = written_deg;
-        while span_deg.abs() > 180.0 {
-            span_deg -= 360.0 * span_deg.signum();
-        }
+        let span_deg = shorter_deg(written_deg);
         match kind {
-            EdgeKind::Straight => vec![Self::new(figure, start, end, span_deg, Shape::Straight)],
+            EdgeKind::Straight => unreachable!("handled above"),
             EdgeKind::Rhumb => {
                 let shape = Shape::Rhumb {
                     from_rad: figure.isometric_rad(start.lat_deg),
@@ -118,6 +105,27 @@ impl TrueEdge {
             }
             EdgeKind::Geodesic => vec![Self::geodesic(figure, start, end, span_deg)],
         }
+    }
+
+    /// Linear in longitude and latitude as written, at the poles too; a difference of 360° goes
+    /// once round.
+    fn straight(figure: &Figure, from: LonLat, to: LonLat) -> Option<Self> {
+        let written_deg = to.lon_deg - from.lon_deg;
+        if from.lat_deg == to.lat_deg && from.lat_deg.abs() == 90.0 {
+            return None;
+        }
+        let span_deg = if written_deg.abs() == 360.0 {
+            written_deg
+        } else {
+            shorter_deg(written_deg)
+        };
+        let (start, end) = [from, to]
+            .map(|p| LonLat::new(canonical_lon_deg(p.lon_deg), p.lat_deg + 0.0))
+            .into();
+        if span_deg == 0.0 {
+            return (start != end).then(|| Self::meridian(figure, start, end));
+        }
+        Some(Self::new(figure, start, end, span_deg, Shape::Straight))
     }
 
     /// The turn at the north pole from meridian `in_deg` to `out_deg`.
@@ -361,6 +369,13 @@ impl TrueEdge {
             .min_by(|a, b| a.0.total_cmp(&b.0))
             .expect("three candidates")
     }
+}
+
+fn shorter_deg(mut span_deg: f64) -> f64 {
+    while span_deg.abs() > 180.0 {
+        span_deg -= 360.0 * span_deg.signum();
+    }
+    span_deg
 }
 
 /// (longitude from the start, latitude), degrees, at a distance along a geodesic.
