@@ -6,6 +6,7 @@ pub mod error;
 pub mod fill_mesh;
 pub mod frame_stats;
 pub mod geodetic;
+mod isometric;
 pub mod options;
 pub mod region;
 pub mod renderer;
@@ -14,7 +15,7 @@ pub mod repair;
 pub use wgpu;
 
 pub use crate::{
-    curve::Curve,
+    curve::{Curve, CurveOn},
     ellipsoid::Ellipsoid,
     error::{RegionError, RendererError},
     fill_mesh::FillMesh,
