@@ -44,3 +44,55 @@ pub fn all() -> Vec<(&'static str, String)> {
         ("resolve_multisampled", resolve(4)),
     ]
 }
+
+#[cfg(test)]
+mod tests {
+    use std::mem::{offset_of, size_of};
+
+    use crate::{renderer::LayerHead, view::FrameUniform};
+
+    /// Members of a WGSL struct with their offsets, bytes, and the size of the whole.
+    fn layout_of(source: &str, name: &str) -> (Vec<(String, usize)>, usize) {
+        let module = naga::front::wgsl::parse_str(source).expect("valid WGSL");
+        let (_, found) = module
+            .types
+            .iter()
+            .find(|(_, ty)| ty.name.as_deref() == Some(name))
+            .expect("struct exists");
+        let naga::TypeInner::Struct { members, span } = &found.inner else {
+            panic!("{name} is not a struct");
+        };
+        let offsets = members
+            .iter()
+            .map(|member| (member.name.clone().unwrap_or_default(), member.offset as usize))
+            .collect();
+        (offsets, *span as usize)
+    }
+
+    macro_rules! offsets {
+        ($ty:ty: $($field:ident),+) => {
+            vec![$((stringify!($field).to_owned(), offset_of!($ty, $field))),+]
+        };
+    }
+
+    #[test]
+    fn the_frame_uniform_has_the_layout_of_the_shader() {
+        let (members, size) = layout_of(&super::count(), "Frame");
+        let expected = offsets!(
+            FrameUniform: clip_from_relative, eye, eye_fraction, eye_remainder, normal_scale,
+            heights, slack
+        );
+        assert_eq!(members, expected);
+        assert_eq!(size, size_of::<FrameUniform>());
+    }
+
+    #[test]
+    fn the_layer_head_has_the_layout_of_the_shader() {
+        for samples in [1, 4] {
+            let (members, _) = layout_of(&super::resolve(samples), "Layer");
+            let expected = offsets!(LayerHead: fills, base, digits, planes);
+            assert_eq!(members[..4], expected);
+            assert_eq!(members[4], ("colors".to_owned(), size_of::<LayerHead>()));
+        }
+    }
+}
