@@ -27,7 +27,7 @@ mod targets;
 pub mod view;
 mod volumes;
 
-pub use wgpu;
+pub use {glam, wgpu};
 
 pub use crate::{
     curve::{Curve, CurveOn},

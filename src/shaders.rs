@@ -64,7 +64,12 @@ mod tests {
         };
         let offsets = members
             .iter()
-            .map(|member| (member.name.clone().unwrap_or_default(), member.offset as usize))
+            .map(|member| {
+                (
+                    member.name.clone().unwrap_or_default(),
+                    member.offset as usize,
+                )
+            })
             .collect();
         (offsets, *span as usize)
     }
