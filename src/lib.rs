@@ -11,6 +11,7 @@ pub mod frame_stats;
 pub mod geodetic;
 mod gpu_mesh;
 mod isometric;
+mod layer_tables;
 mod layers;
 pub mod options;
 mod pipelines;
