@@ -17,7 +17,11 @@ struct Surface {
 impl Surface {
     /// As if every fill were a mesh of its own: borders twice, no arcs.
     fn of(countries: &[Country]) -> Self {
-        let mut surface = Self { vertices: 0, triangles: 0, edges: 0 };
+        let mut surface = Self {
+            vertices: 0,
+            triangles: 0,
+            edges: 0,
+        };
         for country in countries {
             let mesh = build(std::slice::from_ref(country));
             let closing = mesh.arcs.len() as u64;
@@ -45,14 +49,19 @@ impl Surface {
 }
 
 fn build(countries: &[Country]) -> FillMesh {
-    let regions: Vec<_> = countries.iter().map(|country| country.region.clone()).collect();
+    let regions: Vec<_> = countries
+        .iter()
+        .map(|country| country.region.clone())
+        .collect();
     FillMesh::build(&regions, &MeshOptions::default()).expect("embedded data is valid")
 }
 
 fn main() {
     let states = Dataset::UsStates.countries();
-    let california: Vec<_> =
-        states.into_iter().filter(|state| state.name == "California").collect();
+    let california: Vec<_> = states
+        .into_iter()
+        .filter(|state| state.name == "California")
+        .collect();
     let sets = [
         ("California", california),
         ("countries 110m", Dataset::Countries110m.countries()),
@@ -62,7 +71,11 @@ fn main() {
         "{:16} {:>8} {:>9} {:>12} {:>12} {:>10} {:>10} {:>5}",
         "", "vertices", "triangles", "paper, GS", "paper, CPU", "doubled", "globefill", "ratio"
     );
-    let paper = Surface { vertices: 1_056, triangles: 1_107, edges: 0 };
+    let paper = Surface {
+        vertices: 1_056,
+        triangles: 1_107,
+        edges: 0,
+    };
     println!(
         "{:16} {:>8} {:>9} {:>12} {:>12}",
         "California, 2007",

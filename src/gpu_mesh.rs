@@ -60,7 +60,6 @@ impl GpuMesh {
             ),
         }
     }
-
 }
 
 impl FillMesh {
