@@ -1,6 +1,11 @@
 //! What the integration tests share: an independent oracle, a headless host, and the score.
 #![allow(dead_code, reason = "each test binary uses its own part")]
 
+pub mod camera;
 pub mod edge;
 pub mod figure;
+pub mod headless;
 pub mod oracle;
+pub mod scene;
+pub mod score;
+pub mod surface;
