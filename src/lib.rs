@@ -1,18 +1,33 @@
 //! Fills regions on a globe.
 
+mod code;
+mod count;
 pub mod curve;
 pub mod ellipsoid;
 pub mod error;
 pub mod fill_mesh;
+mod fixed_point;
 pub mod frame_stats;
 pub mod geodetic;
+mod gpu_mesh;
 mod isometric;
+mod layers;
 pub mod options;
+mod pipelines;
+mod refine;
 pub mod region;
 pub mod renderer;
 pub mod repair;
+mod select;
+#[doc(hidden)]
+pub mod shaders;
+mod sight;
+mod stream_buffer;
+mod targets;
+pub mod view;
+mod volumes;
 
-pub use wgpu;
+pub use {glam, wgpu};
 
 pub use crate::{
     curve::{Curve, CurveOn},
@@ -25,6 +40,7 @@ pub use crate::{
         Camera, CountTechnique, DepthConvention, FillStyle, Frame, HeightRange, RendererOptions,
     },
     region::{EdgeKind, Inside, Polygon, Region, Ring},
-    renderer::{MeshId, Renderer, View},
+    renderer::{MeshId, Renderer},
     repair::{Place, Repair, RepairKind},
+    view::View,
 };
