@@ -55,7 +55,13 @@ impl IdPainter {
     }
 
     /// One frame of a view.
-    pub fn draw(&mut self, gpu: &Gpu, view: &mut View, surface: &Surface, pixel_error: f64) -> Picture {
+    pub fn draw(
+        &mut self,
+        gpu: &Gpu,
+        view: &mut View,
+        surface: &Surface,
+        pixel_error: f64,
+    ) -> Picture {
         let (_, depth) = depth_texture(gpu, surface, self.options.depth_format);
         let (min_m, max_m) = surface.terrain.range_m();
         let frame = Frame {
