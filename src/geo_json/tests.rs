@@ -103,6 +103,22 @@ fn altitudes_are_left_out() {
 }
 
 #[test]
+fn numbers_are_read_exactly_however_written() {
+    // Borders are shared by equality, so 1 ulp more or less would tear neighbours apart.
+    let numbers: Vec<f64> = (1..2000)
+        .map(|i| f64::from(i) * 0.087_712_345_678_9)
+        .collect();
+    let position = |x: &f64| format!("[{x}000000, {}E-1]", -x * 10.0);
+    let ring = numbers.iter().map(position).collect::<Vec<_>>().join(",");
+    let regions = regions_from_geojson(&polygon(&format!("[{ring}]"))).unwrap();
+    let shell = &regions[0].region.polygons[0].shell;
+    for (vertex, x) in shell.iter().zip(&numbers) {
+        let y: f64 = format!("{}E-1", -x * 10.0).parse().unwrap();
+        assert_eq!(*vertex, LonLat::new(*x, y));
+    }
+}
+
+#[test]
 fn what_the_mesher_reports_is_passed_on() {
     for rings in ["", "[]", "[[0,0],[1,1]]", "[[0,91],[1,91],[1,92],[0,91]]"] {
         let regions = regions_from_geojson(&polygon(rings)).unwrap();

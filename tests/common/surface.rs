@@ -1,0 +1,237 @@
+//! What the host draws: the bare ellipsoid or analytic terrain, ray-cast in f64.
+
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+
+use super::{
+    camera::{DepthRange, Lens, Pose},
+    figure::Figure,
+};
+
+/// Heights of the host's surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Terrain {
+    Bare,
+    Plateau {
+        height_m: f64,
+    },
+    /// Mountains between 4 and 9 km: waves of 300 m to 60 km length along three axes.
+    Rough,
+}
+
+/// Directions and angular frequencies (per radian of arc), and heights, of the waves.
+const WAVES: [(DVec3, f64); 6] = [
+    (DVec3::new(640.0, 410.0, -230.0), 1000.0),
+    (DVec3::new(-1900.0, 2700.0, 1300.0), 600.0),
+    (DVec3::new(5200.0, 3900.0, 9100.0), 300.0),
+    (DVec3::new(-21_000.0, 17_000.0, -13_000.0), 120.0),
+    (DVec3::new(57_000.0, 71_000.0, -66_000.0), 30.0),
+    (DVec3::new(110_000.0, -90_000.0, 130_000.0), 8.0),
+];
+const ROUGH_MEAN_M: f64 = 6400.0;
+
+impl Terrain {
+    pub fn height_m(self, normal: DVec3) -> f64 {
+        match self {
+            Self::Bare => 0.0,
+            Self::Plateau { height_m } => height_m,
+            Self::Rough => {
+                let waves = WAVES.iter().map(|(k, height)| height * k.dot(normal).sin());
+                ROUGH_MEAN_M + waves.sum::<f64>()
+            }
+        }
+    }
+
+    /// Lowest and highest surface point.
+    pub fn range_m(self) -> (f64, f64) {
+        match self {
+            Self::Rough => {
+                let reach: f64 = WAVES.iter().map(|(_, height)| height).sum();
+                (ROUGH_MEAN_M - reach, ROUGH_MEAN_M + reach)
+            }
+            level => (level.height_m(DVec3::Z), level.height_m(DVec3::Z)),
+        }
+    }
+
+    /// Distance along the view axis at which a ray meets the surface.
+    pub fn hit(self, figure: &Figure, eye_m: DVec3, ray: DVec3) -> Option<f64> {
+        if self == Self::Bare {
+            return figure.first_hit(eye_m, ray, 0.0);
+        }
+        let (low_m, high_m) = self.range_m();
+        // The ellipsoid with longer axes lies up to f²·h/2 below the surface of that height.
+        let (enter, leave) = figure.hits(eye_m, ray, high_m + 1.0)?;
+        let leave = match figure.first_hit(eye_m, ray, low_m - 1.0) {
+            Some(low) => low.min(leave),
+            None => leave,
+        };
+        let speed = ray.length();
+        let gap_m = |t: f64| {
+            let (foot, height_m) = figure.geodetic(eye_m + ray * t);
+            height_m - self.height_m(figure.normal(foot))
+        };
+        let mut before = enter.max(0.0);
+        let mut gap = gap_m(before);
+        if gap < 0.0 {
+            return None;
+        }
+        while before < leave {
+            let step = (0.5 * gap / speed).max(3e-4 * before).max(1e-3);
+            let after = (before + step).min(leave + 1e-3);
+            gap = gap_m(after);
+            if gap <= 0.0 {
+                return Some(bisect(gap_m, before, after));
+            }
+            before = after;
+        }
+        None
+    }
+}
+
+fn bisect(gap_m: impl Fn(f64) -> f64, mut above: f64, mut below: f64) -> f64 {
+    for _ in 0..60 {
+        let middle = 0.5 * (above + below);
+        if gap_m(middle) > 0.0 {
+            above = middle;
+        } else {
+            below = middle;
+        }
+    }
+    0.5 * (above + below)
+}
+
+/// Sample positions within a pixel: the standard ones of the graphics APIs.
+pub fn sample_positions(samples: u32) -> &'static [DVec2] {
+    const ONE: [DVec2; 1] = [DVec2::new(0.5, 0.5)];
+    const FOUR: [DVec2; 4] = [
+        DVec2::new(0.375, 0.125),
+        DVec2::new(0.875, 0.375),
+        DVec2::new(0.125, 0.625),
+        DVec2::new(0.625, 0.875),
+    ];
+    match samples {
+        1 => &ONE,
+        4 => &FOUR,
+        _ => panic!("1 or 4 samples"),
+    }
+}
+
+/// The host's depth buffer, and the surface points that it holds.
+pub struct Surface {
+    pub lens: Lens,
+    pub range: DepthRange,
+    pub terrain: Terrain,
+    /// Sample after sample, row after row: stored depth.
+    pub depths: Vec<f32>,
+    /// The surface point, ECEF; none in the sky.
+    pub points_m: Vec<Option<DVec3>>,
+}
+
+/// How the depth range follows from the view.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum DepthKind {
+    /// Reversed infinite, near 0.01 m … 1 m.
+    Reversed,
+    /// Standard with planes a factor of two before and behind what is seen.
+    Standard,
+}
+
+impl Surface {
+    pub fn new(
+        figure: &Figure,
+        pose: &Pose,
+        size_px: glam::UVec2,
+        samples: u32,
+        terrain: Terrain,
+        kind: DepthKind,
+    ) -> Self {
+        let any_range = DepthRange::ReversedInfinite { near_m: 1.0 };
+        let lens = Lens::new(figure, pose, size_px, any_range);
+        let rays: Vec<DVec3> = sample_positions(samples)
+            .iter()
+            .flat_map(|&offset| {
+                (0..size_px.y).flat_map(move |y| {
+                    (0..size_px.x)
+                        .map(move |x| lens.ray(DVec2::new(f64::from(x), f64::from(y)) + offset))
+                })
+            })
+            .collect();
+        let hits: Vec<Option<f64>> = rays
+            .par_iter()
+            .map(|&ray| terrain.hit(figure, lens.eye_m, ray))
+            .collect();
+        let seen = hits.iter().flatten();
+        let nearest_m = seen.clone().fold(f64::INFINITY, |a: f64, &b| a.min(b));
+        let farthest_m = seen.fold(0.0, |a: f64, &b| a.max(b));
+        assert!(farthest_m > 0.0, "{pose:?} sees nothing but sky");
+        let range = match kind {
+            DepthKind::Reversed => DepthRange::ReversedInfinite {
+                near_m: (0.1 * nearest_m).clamp(0.01, 1.0),
+            },
+            DepthKind::Standard => DepthRange::StandardFinite {
+                near_m: 0.5 * nearest_m,
+                far_m: 2.0 * farthest_m,
+            },
+        };
+        let lens = Lens::new(figure, pose, size_px, range);
+        let depths: Vec<f32> = hits
+            .iter()
+            .map(|hit| hit.map_or(range.cleared(), |t| lens.stored_depth(t)))
+            .collect();
+        let points_m = hits
+            .iter()
+            .zip(&rays)
+            .zip(&depths)
+            .map(|((hit, ray), &depth)| {
+                // Over terrain the surface is what the buffer holds, over the bare ellipsoid the hit.
+                let exact_m = (*hit)?;
+                let t = if terrain == Terrain::Bare {
+                    exact_m
+                } else {
+                    lens.distance_m(depth)
+                };
+                Some(lens.eye_m + *ray * t)
+            })
+            .collect();
+        Self {
+            lens,
+            range,
+            terrain,
+            depths,
+            points_m,
+        }
+    }
+
+    pub fn size_px(&self) -> glam::UVec2 {
+        self.lens.size_px
+    }
+
+    pub fn samples(&self) -> u32 {
+        (self.depths.len() / self.pixel_count()) as u32
+    }
+
+    pub fn pixel_count(&self) -> usize {
+        (self.size_px().x * self.size_px().y) as usize
+    }
+
+    /// Whether a pixel touches the sky or a step in depth (DESIGN of the gates: left out).
+    pub fn at_discontinuity(&self, pixel: usize) -> bool {
+        let (width, height) = (self.size_px().x as i64, self.size_px().y as i64);
+        let (x, y) = (pixel as i64 % width, pixel as i64 / width);
+        let around = (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| (x + dx, y + dy)));
+        let mut nearest_m = f64::INFINITY;
+        let mut farthest_m = 0f64;
+        for (x, y) in around.filter(|&(x, y)| x >= 0 && y >= 0 && x < width && y < height) {
+            for sample in 0..self.samples() as usize {
+                let index = sample * self.pixel_count() + (y * width + x) as usize;
+                if self.points_m[index].is_none() {
+                    return true;
+                }
+                let distance_m = self.lens.distance_m(self.depths[index]);
+                nearest_m = nearest_m.min(distance_m);
+                farthest_m = farthest_m.max(distance_m);
+            }
+        }
+        self.terrain == Terrain::Rough && farthest_m > 1.3 * nearest_m
+    }
+}
