@@ -1,5 +1,7 @@
 //! Fills regions on a globe.
 
+mod authalic;
+mod boundary_graph;
 pub mod curve;
 pub mod ellipsoid;
 pub mod error;
@@ -7,10 +9,12 @@ pub mod fill_mesh;
 pub mod frame_stats;
 pub mod geodetic;
 mod isometric;
+mod lattice;
 pub mod options;
 pub mod region;
 pub mod renderer;
 pub mod repair;
+mod rings;
 
 pub use wgpu;
 
