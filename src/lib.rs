@@ -3,6 +3,7 @@
 mod authalic;
 mod boundary_graph;
 pub mod curve;
+mod edge_grid;
 pub mod ellipsoid;
 pub mod error;
 pub mod fill_mesh;
@@ -10,6 +11,7 @@ pub mod frame_stats;
 pub mod geodetic;
 mod isometric;
 mod lattice;
+mod meeting;
 pub mod options;
 pub mod region;
 pub mod renderer;
