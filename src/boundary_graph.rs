@@ -113,17 +113,12 @@ impl BoundaryGraph {
 
     /// The edge along a curve between lattice points; none if it has no length.
     pub(crate) fn insert_curve(&mut self, curve: &Curve) -> Option<DirectedEdge> {
-        let mut start = LatticePoint::nearest(curve.from);
+        let start = LatticePoint::nearest(curve.from);
         let mut end = LatticePoint::nearest(curve.to);
-        if curve.kind == EdgeKind::Geodesic {
-            // A geodesic ends at a pole on the meridian of its other end.
-            if start.is_pole() {
-                start.lon = end.lon;
-            } else if end.is_pole() {
-                end.lon = start.lon;
-            }
+        // Curves to a pole without a turn of their own get their meridian in `insert`.
+        if curve.kind == EdgeKind::Straight || !(start.is_pole() || end.is_pole()) {
+            end.lon = start.lon + steps(curve.turn_deg);
         }
-        end.lon = start.lon + steps(curve.turn_deg);
         self.insert(curve.kind, start, end)
     }
 
@@ -131,12 +126,20 @@ impl BoundaryGraph {
     pub(crate) fn insert(
         &mut self,
         kind: EdgeKind,
-        start: LatticePoint,
-        end: LatticePoint,
+        mut start: LatticePoint,
+        mut end: LatticePoint,
     ) -> Option<DirectedEdge> {
         let (from, to) = (self.node(start), self.node(end));
         if from == to {
             return None;
+        }
+        if kind != EdgeKind::Straight {
+            // Geodesics and rhumbs reach a pole on the meridian of their other end.
+            if start.is_pole() {
+                start.lon = end.lon;
+            } else if end.is_pole() {
+                end.lon = start.lon;
+            }
         }
         let turn = wrap(start.lon) - start.lon;
         let start = LatticePoint::new(start.lon + turn, start.lat);

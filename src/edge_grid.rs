@@ -55,12 +55,13 @@ impl LatticeBox {
     }
 }
 
-/// More pairs than this many lie in common cells: the input is a tangle.
+/// More pairs of edges lie in common cells than the budget allows: the input is a tangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Tangle;
 
-/// Largest number of pairs looked at: some ten seconds of work.
-const PAIR_BUDGET: u64 = 4_000_000_000;
+/// Largest number of pairs looked at, some seconds of work: a constant and so many per edge.
+/// Real coasts have about ten pairs per edge.
+const PAIR_BUDGET: (u64, u64) = (200_000_000, 200);
 
 /// Edges sorted into the cells of a grid over the lon/lat plane.
 pub(crate) struct EdgeGrid {
@@ -135,8 +136,9 @@ impl EdgeGrid {
         fresh: impl Fn(u32) -> bool + Sync,
         visit: impl Fn(u32, u32, &mut Vec<T>) + Sync,
     ) -> Result<Vec<T>, Tangle> {
+        let budget = PAIR_BUDGET.0 + PAIR_BUDGET.1 * self.boxes.len() as u64;
         let pairs = |cell: usize| (self.cell(cell).len() as u64).pow(2) / 2;
-        if (0..self.cell_ends.len()).map(pairs).sum::<u64>() > PAIR_BUDGET {
+        if (0..self.cell_ends.len()).map(pairs).sum::<u64>() > budget {
             return Err(Tangle);
         }
         let mut found: Vec<T> = (0..self.cell_ends.len())

@@ -9,14 +9,19 @@ pub mod error;
 pub mod fill_mesh;
 pub mod frame_stats;
 pub mod geodetic;
+mod headings;
+mod inside;
 mod isometric;
 mod lattice;
 mod meeting;
+mod meridian_index;
+mod noding;
 pub mod options;
 pub mod region;
 pub mod renderer;
 pub mod repair;
 mod rings;
+mod simple_loops;
 
 pub use wgpu;
 

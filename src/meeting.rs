@@ -5,6 +5,7 @@ use glam::DVec3;
 use crate::{
     boundary_graph::Edge,
     curve::CurveOn,
+    edge_grid::LatticeBox,
     ellipsoid::Ellipsoid,
     lattice::{LatticePoint, TURN, orientation},
     region::EdgeKind,
@@ -239,7 +240,8 @@ pub(crate) fn passes_north_of(ellipsoid: &Ellipsoid, edge: &Edge, point: Lattice
     } else {
         (edge.end, edge.start)
     };
-    if west.lat.max(east.lat) < point.lat && edge.kind != EdgeKind::Geodesic {
+    let edge_box = LatticeBox::around(edge);
+    if edge_box.north < point.lat {
         return false;
     }
     let first_turn = (west.lon - point.lon).div_euclid(TURN);
@@ -249,6 +251,9 @@ pub(crate) fn passes_north_of(ellipsoid: &Ellipsoid, edge: &Edge, point: Lattice
     }
     if turned.lon >= east.lon {
         return false;
+    }
+    if edge_box.south > point.lat {
+        return true;
     }
     match edge.kind {
         EdgeKind::Straight => orientation(west, east, turned) < 0,
