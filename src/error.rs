@@ -63,4 +63,24 @@ pub enum RendererError {
         /// The number of fills in the mesh.
         fills: u32,
     },
+    /// A colour is not finite or its alpha not within 0 … 1.
+    #[error("the style of fill {fill} has a colour that is not finite or an alpha beyond 0 … 1")]
+    InvalidStyle {
+        /// The fill.
+        fill: u32,
+    },
+    /// Fills overlap deeper than there are layers.
+    #[error("overlapping fills need {needed} layers, the renderer has {most}")]
+    TooManyLayers {
+        /// Layers needed.
+        needed: usize,
+        /// Layers there are.
+        most: usize,
+    },
+    /// More fills in one layer than codes.
+    #[error("{fills} fills in one layer are more than its codes can tell apart")]
+    TooManyFills {
+        /// Fills in the layer.
+        fills: usize,
+    },
 }

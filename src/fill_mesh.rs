@@ -97,3 +97,10 @@ pub struct Bounds {
     /// Angular radius of the cap, radians, 0 … π.
     pub radius_rad: f64,
 }
+
+impl Bounds {
+    /// Whether the caps have a point in common; may answer yes for caps that just miss.
+    pub(crate) fn intersects(&self, other: &Self) -> bool {
+        self.axis.angle_between(other.axis) <= self.radius_rad + other.radius_rad + 1e-7
+    }
+}

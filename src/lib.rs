@@ -2,28 +2,44 @@
 
 mod authalic;
 mod boundary_graph;
+mod code;
+mod count;
 pub mod curve;
 mod edge_grid;
 pub mod ellipsoid;
 pub mod error;
 pub mod fill_mesh;
+mod fixed_point;
 pub mod frame_stats;
 pub mod geodetic;
+mod gpu_mesh;
 mod headings;
 mod inside;
 mod isometric;
+mod isometric;
 mod lattice;
+mod layers;
 mod meeting;
 mod meridian_index;
 mod noding;
 pub mod options;
+mod pipelines;
+mod refine;
 pub mod region;
 pub mod renderer;
 pub mod repair;
 mod rings;
+mod select;
+#[doc(hidden)]
+pub mod shaders;
+mod sight;
 mod simple_loops;
+mod stream_buffer;
+mod targets;
+pub mod view;
+mod volumes;
 
-pub use wgpu;
+pub use {glam, wgpu};
 
 pub use crate::{
     curve::{Curve, CurveOn},
@@ -36,6 +52,7 @@ pub use crate::{
         Camera, CountTechnique, DepthConvention, FillStyle, Frame, HeightRange, RendererOptions,
     },
     region::{EdgeKind, Inside, Polygon, Region, Ring},
-    renderer::{MeshId, Renderer, View},
+    renderer::{MeshId, Renderer},
     repair::{Place, Repair, RepairKind},
+    view::View,
 };

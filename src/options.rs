@@ -85,6 +85,20 @@ pub struct Frame {
     pub host_pixel_error: f64,
 }
 
+impl Frame {
+    /// A frame over the bare ellipsoid with a budget of 1/4 px, for a host whose surface mesh is
+    /// within one pixel of the true heights.
+    pub fn new(camera: Camera, size_px: UVec2) -> Self {
+        Self {
+            camera,
+            size_px,
+            terrain: HeightRange::default(),
+            pixel_error: 0.25,
+            host_pixel_error: 1.0,
+        }
+    }
+}
+
 /// How a fill looks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FillStyle {

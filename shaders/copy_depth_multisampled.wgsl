@@ -1,0 +1,10 @@
+// Copies the host's multisampled depth beside a stencil of our own.
+@group(0) @binding(0) var depth: texture_depth_multisampled_2d;
+
+@fragment
+fn fs_copy_depth(
+    @builtin(position) pixel: vec4<f32>,
+    @builtin(sample_index) sample: u32,
+) -> @builtin(frag_depth) f32 {
+    return textureLoad(depth, vec2<i32>(pixel.xy), i32(sample));
+}

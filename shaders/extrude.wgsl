@@ -1,0 +1,155 @@
+// The vertex-pulling extruder. Inputs lie on the ellipsoid; what is drawn is raised over the terrain
+// or pushed below it. Interior triangles arrive as cap-only inputs (a, b, c) and become a top and a
+// bottom cap; boundary edges arrive as degenerate wall inputs (a, b, b) and become two triangles.
+// With vertices in arc order the wall input (i, i + 1, i + 1) is implied by i and takes no memory.
+
+struct Frame {
+    // Clip space from metres relative to the eye, along ECEF axes.
+    clip_from_relative: mat4x4<f32>,
+    // The eye in steps of 1/128 m.
+    eye: vec4<i32>,
+    // What the steps leave over, in 2^-17 m.
+    eye_fraction: vec4<i32>,
+    // xyz: metres from the true eye to the encoded one. w: +1, or -1 where the projection mirrors.
+    eye_remainder: vec4<f32>,
+    // Surface position times this is along the geodetic normal: (1, 1, (a/b)^2, 0).
+    normal_scale: vec4<f32>,
+    // x: top, m. y: bottom, m. z: how far the bottom is pushed down per metre from the eye.
+    // w: the most that z and slack may add, m.
+    heights: vec4<f32>,
+    // Added above and below for the host's depth steps: x + y * distance + z * distance^2, m.
+    slack: vec4<f32>,
+}
+
+// How a vertex is drawn.
+const BOTTOM: u32 = 0u;
+const TOP: u32 = 1u;
+const AS_IS: u32 = 2u;
+
+// In `arc_of`: a slot between two arcs, which holds no vertex.
+const BREAK: u32 = 0xffffffffu;
+
+@group(0) @binding(0) var<uniform> frame: Frame;
+// Fixed point: xyz in 1/128 m, w three 10-bit fractions of 2^-17 m (x lowest).
+@group(1) @binding(0) var<storage, read> vertices: array<vec4<i32>>;
+// The arc of each boundary slot.
+@group(1) @binding(1) var<storage, read> arc_of: array<u32>;
+// Left and right piece of each arc, plus one; 0 for none.
+@group(1) @binding(2) var<storage, read> arcs: array<vec2<u32>>;
+// Winding code of each piece, plus one, in this view and layer; four digits of 8 bits.
+@group(1) @binding(3) var<storage, read> codes: array<u32>;
+
+fn relative_m(vertex: vec4<i32>) -> vec3<f32> {
+    // Exact: the eye is clamped so that the differences stay below 2^31.
+    let steps = vertex.xyz - frame.eye.xyz;
+    let fractions = vec3<i32>(vertex.w & 1023, (vertex.w >> 10u) & 1023, (vertex.w >> 20u) & 1023);
+    let below = vec3<f32>(fractions - frame.eye_fraction.xyz) / 131072.0;
+    return vec3<f32>(steps) / 128.0 + (below + frame.eye_remainder.xyz);
+}
+
+fn extruded_m(vertex: vec4<i32>, drawn: u32) -> vec3<f32> {
+    let surface_m = relative_m(vertex);
+    if drawn == AS_IS {
+        return surface_m;
+    }
+    let normal = normalize(vec3<f32>(vertex.xyz) * frame.normal_scale.xyz);
+    let distance_m = length(surface_m);
+    let slack_m = min(
+        frame.slack.x + distance_m * (frame.slack.y + distance_m * frame.slack.z),
+        frame.heights.w,
+    );
+    let pushed_m = min(frame.heights.z * distance_m, frame.heights.w);
+    let bottom_m = min(frame.heights.y, -pushed_m) - slack_m;
+    let top_m = frame.heights.x + slack_m;
+    return surface_m + normal * select(bottom_m, top_m, drawn == TOP);
+}
+
+fn clip(vertex: vec4<i32>, drawn: u32) -> vec4<f32> {
+    return frame.clip_from_relative * vec4<f32>(extruded_m(vertex, drawn), 1.0);
+}
+
+fn code_digits(piece_plus_one: u32) -> vec4<f32> {
+    return digits_of(codes[piece_plus_one]);
+}
+
+fn digits_of(code: u32) -> vec4<f32> {
+    return vec4<f32>(vec4<u32>(code & 255u, (code >> 8u) & 255u, (code >> 16u) & 255u, code >> 24u));
+}
+
+fn arc_weight(arc: u32) -> vec4<f32> {
+    let sides = arcs[arc];
+    return code_digits(sides.x) - code_digits(sides.y);
+}
+
+struct Face {
+    @builtin(position) @invariant position: vec4<f32>,
+    // Seen from outside the volume of the left piece.
+    @location(0) @interpolate(flat) weight: vec4<f32>,
+}
+
+// Cap-only inputs. instance = 2 * piece + (1 for the bottom cap).
+@vertex
+fn vs_cap(@builtin(vertex_index) vertex: u32, @builtin(instance_index) instance: u32) -> Face {
+    let bottom = (instance & 1u) == 1u;
+    var face: Face;
+    face.position = clip(vertices[vertex], select(TOP, BOTTOM, bottom));
+    // The bottom cap is the same triangle seen from below.
+    face.weight = code_digits((instance >> 1u) + 1u) * select(1.0, -1.0, bottom);
+    return face;
+}
+
+struct WallCorner {
+    slot: u32,
+    drawn: u32,
+}
+
+// Corner k of the strip: top and bottom of slot k / 2. Between two arcs the strip collapses into
+// triangles without area: down the end of one arc, over, and up the start of the next.
+fn wall_corner(k: u32) -> WallCorner {
+    let slot = k >> 1u;
+    let top = (k & 1u) == 0u;
+    if arc_of[slot] != BREAK {
+        return WallCorner(slot, select(BOTTOM, TOP, top));
+    }
+    if top {
+        return WallCorner(slot - 1u, BOTTOM);
+    }
+    return WallCorner(slot + 1u, TOP);
+}
+
+// Degenerate wall inputs, as a triangle strip over boundary slots.
+@vertex
+fn vs_wall(@builtin(vertex_index) k: u32) -> Face {
+    let corner = wall_corner(k);
+    var face: Face;
+    face.position = clip(vertices[corner.slot], corner.drawn);
+    face.weight = arc_weight(arc_of[corner.slot]);
+    return face;
+}
+
+// Refined walls: an index is 4 * vertex + how it is drawn; `vertices` is the patch's own buffer.
+@vertex
+fn vs_patch(@builtin(vertex_index) index: u32, @builtin(instance_index) arc: u32) -> Face {
+    var face: Face;
+    face.position = clip(vertices[index >> 2u], index & 3u);
+    face.weight = arc_weight(arc);
+    return face;
+}
+
+// The same walls where the stencil has counted and a single piece is to be painted.
+@vertex
+fn vs_wall_cover(@builtin(vertex_index) k: u32, @builtin(instance_index) piece: u32) -> Face {
+    let corner = wall_corner(k);
+    var face: Face;
+    face.position = clip(vertices[corner.slot], corner.drawn);
+    face.weight = code_digits(piece + 1u);
+    return face;
+}
+
+@vertex
+fn vs_patch_cover(@builtin(vertex_index) index: u32, @builtin(instance_index) piece: u32) -> Face {
+    var face: Face;
+    face.position = clip(vertices[index >> 2u], index & 3u);
+    face.weight = code_digits(piece + 1u);
+    return face;
+}

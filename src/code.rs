@@ -1,0 +1,174 @@
+//! Winding codes: how the ids of a layer's fills are spread over planes of small integer sums.
+//!
+//! The count pass adds codes, so a pixel inside one fill holds that fill's code exactly as long as
+//! no partial sum leaves the integers of the target's float format. That is proven, not observed:
+//! the sum of |digit| over every triangle drawn stays below the format's mantissa.
+
+/// Most planes a code may have.
+pub(crate) const MAX_PLANES: u32 = 4;
+/// Digits are stored in 8 bits.
+const MAX_BASE: u32 = 256;
+/// Check digits are below this.
+const CHECK_BASE: u32 = 32;
+
+/// How many partial sums a float format holds exactly.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Mantissa {
+    /// 16-bit floats: integers to 2¹¹.
+    Half,
+    /// 32-bit floats: integers to 2²⁴.
+    Single,
+}
+
+impl Mantissa {
+    fn limit(self) -> u64 {
+        match self {
+            Self::Half => 1 << 11,
+            Self::Single => 1 << 24,
+        }
+    }
+}
+
+/// A positional code for the ids 1 … `fills`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Code {
+    pub fills: u32,
+    pub base: u32,
+    pub digits: u32,
+    pub planes: u32,
+}
+
+impl Code {
+    /// The shortest code for `fills` ids whose sums provably fit `mantissa`, given the number of
+    /// triangles drawn for each id; `None` if there is none.
+    pub(crate) fn fitting(triangles_by_id: &[u64], mantissa: Mantissa) -> Option<Self> {
+        Self::candidates(triangles_by_id.len() as u32)
+            .find(|code| code.largest_sum(triangles_by_id) < mantissa.limit())
+    }
+
+    /// A code for counting by stencil, where nothing is summed.
+    pub(crate) fn unsummed(fills: u32) -> Option<Self> {
+        Self::candidates(fills).next()
+    }
+
+    fn candidates(fills: u32) -> impl Iterator<Item = Self> {
+        // (digits, planes); a lone fill needs no check, its sum is 0 or 1.
+        let shapes: &[(u32, u32)] = if fills == 1 {
+            &[(1, 1), (1, 4)]
+        } else {
+            &[(1, 2), (2, 4), (3, 4)]
+        };
+        shapes.iter().filter_map(move |&(digits, planes)| {
+            let base = (2..=MAX_BASE).find(|base| base.pow(digits) > fills)?;
+            Some(Self {
+                fills,
+                base,
+                digits,
+                planes,
+            })
+        })
+    }
+
+    /// Upper bound of |partial sum| on any plane and pixel.
+    pub(crate) fn largest_sum(&self, triangles_by_id: &[u64]) -> u64 {
+        let mut sums = [0; MAX_PLANES as usize];
+        for (id, triangles) in (1..).zip(triangles_by_id) {
+            for (sum, digit) in sums.iter_mut().zip(self.planes_of(id)) {
+                *sum += triangles * u64::from(digit);
+            }
+        }
+        sums.into_iter().max().unwrap_or(0)
+    }
+
+    /// Whether `extra` further triangles, of any ids, fit as well.
+    pub(crate) fn leaves_room(&self, sum: u64, extra: u64, mantissa: Mantissa) -> bool {
+        sum + extra * u64::from(self.base.max(CHECK_BASE) - 1) < mantissa.limit()
+    }
+
+    /// The digits and checks that make up the code of `id`; the same as `planes_of` in resolve.wgsl.
+    pub(crate) fn planes_of(&self, id: u32) -> [u32; MAX_PLANES as usize] {
+        // Far from linear in the id, so that A − B + C rarely checks (lowbias32 of C. Wellons).
+        let mut mixed = (id ^ (id >> 16)).wrapping_mul(0x7feb_352d);
+        mixed = (mixed ^ (mixed >> 15)).wrapping_mul(0x846c_a68b);
+        mixed ^= mixed >> 16;
+        let checks = [mixed % CHECK_BASE, mixed / CHECK_BASE % CHECK_BASE];
+        let mut planes = [0; MAX_PLANES as usize];
+        let mut rest = id;
+        for digit in &mut planes[..self.digits as usize] {
+            *digit = rest % self.base;
+            rest /= self.base;
+        }
+        for (plane, check) in planes[self.digits as usize..self.planes as usize]
+            .iter_mut()
+            .zip(checks)
+        {
+            *plane = check;
+        }
+        planes
+    }
+
+    /// The planes of `id`, 8 bits each, as the extruder reads them.
+    pub(crate) fn packed(&self, id: u32) -> u32 {
+        u32::from_le_bytes(self.planes_of(id).map(|digit| digit as u8))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn codes_are_distinct_and_fit_their_bytes() {
+        for fills in [1, 2, 31, 255, 256, 3_000, 70_000] {
+            let triangles = vec![1; fills];
+            let code = Code::fitting(&triangles, Mantissa::Single).expect("fits");
+            let mut seen = std::collections::HashSet::new();
+            for id in 1..=fills as u32 {
+                let planes = code.planes_of(id);
+                assert!(planes.iter().all(|&digit| digit < 256));
+                assert!(seen.insert(planes));
+                assert_ne!(code.packed(id), 0);
+            }
+        }
+    }
+
+    #[test]
+    fn head_room_is_refused_when_not_proven() {
+        assert!(Code::fitting(&[2_047], Mantissa::Half).is_some());
+        assert!(Code::fitting(&[2_048], Mantissa::Half).is_none());
+        assert!(Code::fitting(&[1 << 24], Mantissa::Single).is_none());
+        // 241 fills of 1 500 triangles: ids in one digit would sum to 4·10⁷.
+        let code = Code::fitting(&[1_500; 241], Mantissa::Single).expect("two digits fit");
+        assert_eq!((code.digits, code.planes, code.base), (2, 4, 16));
+    }
+
+    #[test]
+    fn most_false_sums_are_recognised() {
+        let code = Code::fitting(&[100; 200], Mantissa::Single).expect("fits");
+        let (mut valid, mut tried) = (0, 0);
+        for a in 1..200u32 {
+            for b in (1..200u32).step_by(7) {
+                for c in (1..200u32).step_by(11) {
+                    if a == b || b == c {
+                        continue;
+                    }
+                    tried += 1;
+                    let [a, b, c] = [a, b, c].map(|id| code.planes_of(id).map(i64::from));
+                    let sum: Vec<i64> =
+                        (0..4).map(|plane| a[plane] - b[plane] + c[plane]).collect();
+                    let valid_sum = (1..=200).any(|id| {
+                        code.planes_of(id)
+                            .iter()
+                            .zip(&sum)
+                            .all(|(&p, &s)| i64::from(p) == s)
+                    });
+                    valid += u32::from(valid_sum);
+                }
+            }
+        }
+        assert!(
+            f64::from(valid) < 0.04 * f64::from(tried),
+            "{valid} of {tried}"
+        );
+    }
+}

@@ -1,0 +1,351 @@
+//! Recording the count passes.
+
+use crate::{
+    gpu_mesh::GpuMesh,
+    options::CountTechnique,
+    pipelines::{Input, Key, Pipelines, Planes},
+    select::LayerDraws,
+    targets::{LayerTarget, Targets},
+    view::{LayerView, MeshView, Prepared},
+    volumes::{Volume, Walls},
+};
+
+/// A mesh as one view draws it.
+#[derive(Clone, Copy)]
+pub(crate) struct Drawn<'a> {
+    pub gpu: &'a GpuMesh,
+    pub view: &'a MeshView,
+}
+
+/// Everything the passes of one view need.
+pub(crate) struct Recorder<'a> {
+    pub device: &'a wgpu::Device,
+    pub pipelines: &'a Pipelines,
+    pub prepared: Prepared,
+    pub targets: &'a Targets,
+    pub meshes: Vec<Drawn<'a>>,
+}
+
+/// The pipelines that counting a layer needs.
+pub(crate) fn keys(
+    technique: CountTechnique,
+    planes: Planes,
+    unclipped: bool,
+    inputs: &[Input],
+) -> Vec<Key> {
+    let mut keys = Vec::new();
+    for &input in inputs {
+        match technique {
+            CountTechnique::Winding => keys.push(Key::Count {
+                input,
+                planes,
+                unclipped,
+            }),
+            CountTechnique::Stencil => {
+                keys.extend([false, true].map(|flipped| Key::Stencil {
+                    input,
+                    planes,
+                    flipped,
+                    unclipped,
+                }));
+                keys.push(Key::Cover {
+                    input,
+                    planes,
+                    unclipped,
+                });
+            }
+        }
+    }
+    if technique == CountTechnique::Stencil {
+        keys.push(Key::CopyDepth);
+    }
+    keys
+}
+
+/// What the count passes of one mesh cost.
+#[derive(Default)]
+pub(crate) struct Cost {
+    pub draws: u32,
+    pub vertices: u64,
+}
+
+impl Cost {
+    fn add(&mut self, vertices: usize, times: u64) {
+        self.draws += times as u32;
+        self.vertices += vertices as u64 * times;
+    }
+}
+
+/// Counts what `Recorder` records.
+pub(crate) fn cost(view: &MeshView) -> Cost {
+    let mut cost = Cost::default();
+    if view.volumes.is_empty() {
+        for draws in &view.selection.layers {
+            for run in &draws.caps {
+                // One draw of two instances.
+                cost.draws += 1;
+                cost.vertices += 6 * run.triangles.len() as u64;
+            }
+            draws
+                .walls
+                .iter()
+                .for_each(|slots| cost.add(2 * slots.len(), 1));
+            draws
+                .patches
+                .iter()
+                .for_each(|run| cost.add(run.indices.len(), 1));
+        }
+    }
+    // Count and cover draw the same.
+    for volume in view.volumes.iter().flatten() {
+        for triangles in &volume.caps {
+            cost.add(3 * triangles.len(), 4);
+        }
+        for walls in [&volume.left_of, &volume.right_of] {
+            walls
+                .slots
+                .iter()
+                .for_each(|slots| cost.add(2 * slots.len(), 2));
+            walls
+                .patches
+                .iter()
+                .for_each(|indices| cost.add(indices.len(), 2));
+        }
+    }
+    cost
+}
+
+impl Recorder<'_> {
+    pub(crate) fn record(&self, encoder: &mut wgpu::CommandEncoder, depth: &wgpu::TextureView) {
+        match self.prepared.technique {
+            CountTechnique::Winding => {
+                for (index, target) in self.targets.layers.iter().enumerate() {
+                    self.record_winding(encoder, depth, index, target);
+                }
+            }
+            CountTechnique::Stencil => {
+                let Some(stencil) = &self.targets.stencil else {
+                    return;
+                };
+                self.record_depth_copy(encoder, depth, stencil);
+                for (index, target) in self.targets.layers.iter().enumerate() {
+                    self.record_stencil(encoder, stencil, index, target);
+                }
+            }
+        }
+    }
+
+    fn record_winding(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        depth: &wgpu::TextureView,
+        index: usize,
+        target: &LayerTarget,
+    ) {
+        let read_only = wgpu::RenderPassDepthStencilAttachment {
+            view: depth,
+            depth_ops: None,
+            stencil_ops: None,
+        };
+        let mut pass = begin(encoder, "globefill count", Some(target), read_only);
+        let count = |input| Key::Count {
+            input,
+            planes: self.targets.key.planes[index],
+            unclipped: self.prepared.unclipped,
+        };
+        for drawn in &self.meshes {
+            let (draws, layer) = (
+                &drawn.view.selection.layers[index],
+                &drawn.view.layers[index],
+            );
+            pass.set_bind_group(0, &drawn.view.frame_group, &[]);
+            pass.set_bind_group(1, &layer.mesh_group, &[]);
+            self.draw_caps(&mut pass, count(Input::Caps), drawn, draws);
+            if !draws.walls.is_empty() {
+                pass.set_pipeline(self.pipelines.get(count(Input::Walls)));
+                for slots in &draws.walls {
+                    pass.draw(2 * slots.start..2 * slots.end, 0..1);
+                }
+            }
+            if !draws.patches.is_empty() {
+                pass.set_pipeline(self.pipelines.get(count(Input::Patches)));
+                self.bind_patch(&mut pass, drawn.view, layer);
+                for run in &draws.patches {
+                    pass.draw_indexed(run.indices.clone(), 0, run.arc..run.arc + 1);
+                }
+            }
+        }
+    }
+
+    /// Caps twice, raised and pushed down.
+    fn draw_caps(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        key: Key,
+        drawn: &Drawn<'_>,
+        draws: &LayerDraws,
+    ) {
+        if draws.caps.is_empty() {
+            return;
+        }
+        pass.set_pipeline(self.pipelines.get(key));
+        pass.set_index_buffer(drawn.gpu.cap_indices.slice(..), wgpu::IndexFormat::Uint32);
+        for run in &draws.caps {
+            let indices = 3 * run.triangles.start..3 * run.triangles.end;
+            pass.draw_indexed(indices, 0, 2 * run.piece..2 * run.piece + 2);
+        }
+    }
+
+    fn bind_patch(&self, pass: &mut wgpu::RenderPass<'_>, view: &MeshView, layer: &LayerView) {
+        pass.set_bind_group(1, &layer.patch_group, &[]);
+        let indices = view.patch_indices.buffer.slice(..);
+        pass.set_index_buffer(indices, wgpu::IndexFormat::Uint32);
+    }
+
+    fn record_depth_copy(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        depth: &wgpu::TextureView,
+        stencil: &wgpu::TextureView,
+    ) {
+        let group = self.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("globefill depth"),
+            layout: &self.pipelines.depth_layout,
+            entries: &[wgpu::BindGroupEntry {
+                binding: 0,
+                resource: wgpu::BindingResource::TextureView(depth),
+            }],
+        });
+        let cleared = wgpu::RenderPassDepthStencilAttachment {
+            view: stencil,
+            depth_ops: Some(wgpu::Operations {
+                load: wgpu::LoadOp::Clear(0.0),
+                store: wgpu::StoreOp::Store,
+            }),
+            stencil_ops: Some(wgpu::Operations {
+                load: wgpu::LoadOp::Clear(0),
+                store: wgpu::StoreOp::Store,
+            }),
+        };
+        let mut pass = begin(encoder, "globefill copy depth", None, cleared);
+        pass.set_pipeline(self.pipelines.get(Key::CopyDepth));
+        pass.set_bind_group(0, &group, &[]);
+        pass.draw(0..3, 0..1);
+    }
+
+    fn record_stencil(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        stencil: &wgpu::TextureView,
+        index: usize,
+        target: &LayerTarget,
+    ) {
+        let attachment = wgpu::RenderPassDepthStencilAttachment {
+            view: stencil,
+            depth_ops: None,
+            stencil_ops: Some(wgpu::Operations {
+                load: wgpu::LoadOp::Load,
+                store: wgpu::StoreOp::Store,
+            }),
+        };
+        // Counting writes no colour but keeps the targets attached: one pass serves all fills.
+        let mut pass = begin(encoder, "globefill stencil", Some(target), attachment);
+        for drawn in &self.meshes {
+            pass.set_bind_group(0, &drawn.view.frame_group, &[]);
+            for volume in &drawn.view.volumes[index] {
+                self.draw_volume(&mut pass, drawn, index, volume, Stage::Count);
+                self.draw_volume(&mut pass, drawn, index, volume, Stage::Cover);
+            }
+        }
+    }
+
+    fn draw_volume(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        drawn: &Drawn<'_>,
+        index: usize,
+        volume: &Volume,
+        stage: Stage,
+    ) {
+        let layer = &drawn.view.layers[index];
+        let planes = self.targets.key.planes[index];
+        let key = |input, inward: bool| match stage {
+            Stage::Count => Key::Stencil {
+                input,
+                planes,
+                flipped: inward != self.prepared.mirrored,
+                unclipped: self.prepared.unclipped,
+            },
+            Stage::Cover => Key::Cover {
+                input,
+                planes,
+                unclipped: self.prepared.unclipped,
+            },
+        };
+        pass.set_bind_group(1, &layer.mesh_group, &[]);
+        pass.set_index_buffer(drawn.gpu.cap_indices.slice(..), wgpu::IndexFormat::Uint32);
+        // The bottom cap is the top's triangles seen from below.
+        for bottom in 0..2 {
+            pass.set_pipeline(self.pipelines.get(key(Input::Caps, bottom == 1)));
+            let instance = 2 * volume.piece + bottom;
+            for triangles in &volume.caps {
+                let indices = 3 * triangles.start..3 * triangles.end;
+                pass.draw_indexed(indices, 0, instance..instance + 1);
+            }
+        }
+        let piece = volume.piece..volume.piece + 1;
+        let sides: [(&Walls, bool); 2] = [(&volume.left_of, false), (&volume.right_of, true)];
+        for (walls, inward) in sides {
+            if !walls.slots.is_empty() {
+                pass.set_pipeline(self.pipelines.get(key(Input::Walls, inward)));
+                for slots in &walls.slots {
+                    pass.draw(2 * slots.start..2 * slots.end, piece.clone());
+                }
+            }
+        }
+        for (walls, inward) in sides {
+            if !walls.patches.is_empty() {
+                pass.set_pipeline(self.pipelines.get(key(Input::Patches, inward)));
+                self.bind_patch(pass, drawn.view, layer);
+                for indices in &walls.patches {
+                    pass.draw_indexed(indices.clone(), 0, piece.clone());
+                }
+            }
+        }
+    }
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Stage {
+    Count,
+    Cover,
+}
+
+fn begin<'a>(
+    encoder: &'a mut wgpu::CommandEncoder,
+    label: &str,
+    target: Option<&LayerTarget>,
+    depth_stencil: wgpu::RenderPassDepthStencilAttachment<'_>,
+) -> wgpu::RenderPass<'a> {
+    let planes: &[wgpu::TextureView] = target.map_or(&[], |target| &target.planes);
+    let color_attachments: Vec<_> = planes
+        .iter()
+        .map(|view| {
+            Some(wgpu::RenderPassColorAttachment {
+                view,
+                depth_slice: None,
+                resolve_target: None,
+                ops: wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+                    store: wgpu::StoreOp::Store,
+                },
+            })
+        })
+        .collect();
+    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: Some(label),
+        color_attachments: &color_attachments,
+        depth_stencil_attachment: Some(depth_stencil),
+        ..Default::default()
+    })
+}

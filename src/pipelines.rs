@@ -1,0 +1,450 @@
+//! Render pipelines, compiled when a frame first needs them.
+
+use std::collections::HashMap;
+
+use crate::{
+    code::{MAX_PLANES, Mantissa},
+    options::{DepthConvention, RendererOptions},
+    shaders,
+};
+
+/// Depth and stencil of the stencil technique.
+pub(crate) const STENCIL_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32FloatStencil8;
+
+/// What is drawn: each input kind has its own vertex entry point and topology.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Input {
+    /// Cap-only inputs, indexed.
+    Caps,
+    /// Degenerate wall inputs, a strip over boundary slots.
+    Walls,
+    /// Refined walls, indexed.
+    Patches,
+}
+
+/// Which planes a layer has, and in which float format.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct Planes {
+    pub count: u32,
+    pub half: bool,
+}
+
+impl Planes {
+    pub(crate) fn new(count: u32, mantissa: Mantissa) -> Self {
+        Self {
+            count,
+            half: mantissa == Mantissa::Half,
+        }
+    }
+
+    /// Formats of the targets: one with all planes, or one each where samples are many (32-bit
+    /// formats with several channels cannot be multisampled).
+    pub(crate) fn formats(self, sample_count: u32) -> Vec<wgpu::TextureFormat> {
+        use wgpu::TextureFormat as F;
+        let (one, two, four) = if self.half {
+            (F::R16Float, F::Rg16Float, F::Rgba16Float)
+        } else {
+            (F::R32Float, F::Rg32Float, F::Rgba32Float)
+        };
+        match (sample_count, self.count) {
+            (1, 1) => vec![one],
+            (1, 2) => vec![two],
+            (1, _) => vec![four],
+            (_, count) => vec![one; count as usize],
+        }
+    }
+}
+
+/// Names a pipeline.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Key {
+    /// Adds winding codes.
+    Count {
+        input: Input,
+        planes: Planes,
+        unclipped: bool,
+    },
+    /// Counts faces in the stencil and writes no colour, in the same pass as the covers; `flipped`
+    /// where the outside is seen clockwise.
+    Stencil {
+        input: Input,
+        planes: Planes,
+        flipped: bool,
+        unclipped: bool,
+    },
+    /// Paints a code where the stencil counted, and clears the stencil.
+    Cover {
+        input: Input,
+        planes: Planes,
+        unclipped: bool,
+    },
+    /// Copies the host's depth beside the stencil.
+    CopyDepth,
+    /// Colours the host's target.
+    Resolve,
+}
+
+/// Layouts, shader modules and the pipelines made so far.
+pub(crate) struct Pipelines {
+    options: RendererOptions,
+    pub frame_layout: wgpu::BindGroupLayout,
+    pub mesh_layout: wgpu::BindGroupLayout,
+    pub resolve_layout: wgpu::BindGroupLayout,
+    pub depth_layout: wgpu::BindGroupLayout,
+    count_shader: wgpu::ShaderModule,
+    made: HashMap<Key, wgpu::RenderPipeline>,
+}
+
+impl Pipelines {
+    pub(crate) fn new(device: &wgpu::Device, options: RendererOptions) -> Self {
+        let multisampled = options.sample_count > 1;
+        let texture = |sample_type| wgpu::BindingType::Texture {
+            sample_type,
+            view_dimension: wgpu::TextureViewDimension::D2,
+            multisampled,
+        };
+        let float = texture(wgpu::TextureSampleType::Float { filterable: false });
+        let plane_textures = if multisampled { MAX_PLANES as usize } else { 1 };
+        let storage = wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Storage { read_only: true },
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        };
+        let uniform = wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Uniform,
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        };
+        let mut resolve_bindings = vec![storage];
+        resolve_bindings.extend(vec![float; plane_textures]);
+        let (vertex, fragment) = (wgpu::ShaderStages::VERTEX, wgpu::ShaderStages::FRAGMENT);
+        Self {
+            options,
+            frame_layout: layout(device, "globefill frame", vertex | fragment, &[uniform]),
+            mesh_layout: layout(device, "globefill mesh", vertex, &[storage; 4]),
+            resolve_layout: layout(device, "globefill resolve", fragment, &resolve_bindings),
+            depth_layout: layout(
+                device,
+                "globefill depth",
+                fragment,
+                &[texture(wgpu::TextureSampleType::Depth)],
+            ),
+            count_shader: shader(device, "globefill count", shaders::count()),
+            made: HashMap::new(),
+        }
+    }
+
+    /// Compiles the pipeline if it does not exist yet.
+    pub(crate) fn ensure(&mut self, device: &wgpu::Device, key: Key) {
+        if !self.made.contains_key(&key) {
+            let pipeline = self.make(device, key);
+            self.made.insert(key, pipeline);
+        }
+    }
+
+    /// A pipeline that `ensure` was called for.
+    pub(crate) fn get(&self, key: Key) -> &wgpu::RenderPipeline {
+        &self.made[&key]
+    }
+
+    fn make(&self, device: &wgpu::Device, key: Key) -> wgpu::RenderPipeline {
+        match key {
+            Key::Count {
+                input,
+                planes,
+                unclipped,
+            } => {
+                let mut recipe = self.volume_recipe(input, vertex_entry(input), unclipped);
+                recipe.fragment = Some(self.planes_entry("fs_count"));
+                recipe.targets = self.targets(planes, Some(ADD), wgpu::ColorWrites::ALL);
+                recipe.depth_stencil = Some(depth_stencil(
+                    self.options.depth_format,
+                    self.behind(),
+                    wgpu::StencilState::default(),
+                ));
+                self.build(device, &recipe)
+            }
+            Key::Stencil {
+                input,
+                planes,
+                flipped,
+                unclipped,
+            } => {
+                let mut recipe = self.volume_recipe(input, vertex_entry(input), unclipped);
+                recipe.fragment = Some(self.planes_entry("fs_count"));
+                recipe.targets = self.targets(planes, None, wgpu::ColorWrites::empty());
+                if flipped {
+                    recipe.primitive.front_face = wgpu::FrontFace::Cw;
+                }
+                recipe.depth_stencil = Some(depth_stencil(
+                    STENCIL_FORMAT,
+                    self.behind(),
+                    counting_stencil(),
+                ));
+                self.build(device, &recipe)
+            }
+            Key::Cover {
+                input,
+                planes,
+                unclipped,
+            } => {
+                let mut recipe = self.volume_recipe(input, cover_entry(input), unclipped);
+                recipe.fragment = Some(self.planes_entry("fs_cover"));
+                recipe.targets = self.targets(planes, None, wgpu::ColorWrites::ALL);
+                recipe.depth_stencil = Some(depth_stencil(
+                    STENCIL_FORMAT,
+                    wgpu::CompareFunction::Always,
+                    covering_stencil(),
+                ));
+                self.build(device, &recipe)
+            }
+            Key::CopyDepth => {
+                let source = shaders::copy_depth(self.options.sample_count);
+                let module = shader(device, "globefill copy depth", source);
+                let mut recipe = self.screen_recipe(&module, &self.depth_layout);
+                recipe.fragment = Some("fs_copy_depth".to_owned());
+                let mut state = depth_stencil(
+                    STENCIL_FORMAT,
+                    wgpu::CompareFunction::Always,
+                    wgpu::StencilState::default(),
+                );
+                state.depth_write_enabled = Some(true);
+                recipe.depth_stencil = Some(state);
+                self.build(device, &recipe)
+            }
+            Key::Resolve => {
+                let source = shaders::resolve(self.options.sample_count);
+                let module = shader(device, "globefill resolve", source);
+                let mut recipe = self.screen_recipe(&module, &self.resolve_layout);
+                let entry = if self.options.sample_count > 1 {
+                    "fs_resolve_sample"
+                } else {
+                    "fs_resolve"
+                };
+                recipe.fragment = Some(entry.to_owned());
+                recipe.targets = vec![Some(wgpu::ColorTargetState {
+                    format: self.options.color_format,
+                    blend: Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
+                    write_mask: wgpu::ColorWrites::ALL,
+                })];
+                self.build(device, &recipe)
+            }
+        }
+    }
+
+    /// Passes what lies behind the scene's surface.
+    fn behind(&self) -> wgpu::CompareFunction {
+        match self.options.depth {
+            DepthConvention::Reversed => wgpu::CompareFunction::Less,
+            DepthConvention::Standard => wgpu::CompareFunction::Greater,
+        }
+    }
+
+    fn planes_entry(&self, stage: &str) -> String {
+        let kind = if self.options.sample_count > 1 {
+            "separate"
+        } else {
+            "packed"
+        };
+        format!("{stage}_{kind}")
+    }
+
+    fn targets(
+        &self,
+        planes: Planes,
+        blend: Option<wgpu::BlendState>,
+        write_mask: wgpu::ColorWrites,
+    ) -> Vec<Option<wgpu::ColorTargetState>> {
+        planes
+            .formats(self.options.sample_count)
+            .into_iter()
+            .map(|format| {
+                Some(wgpu::ColorTargetState {
+                    format,
+                    blend,
+                    write_mask,
+                })
+            })
+            .collect()
+    }
+
+    fn volume_recipe(&self, input: Input, entry: &'static str, unclipped: bool) -> Recipe<'_> {
+        Recipe {
+            module: &self.count_shader,
+            layouts: vec![&self.frame_layout, &self.mesh_layout],
+            vertex: entry,
+            fragment: None,
+            targets: Vec::new(),
+            primitive: wgpu::PrimitiveState {
+                topology: match input {
+                    Input::Walls => wgpu::PrimitiveTopology::TriangleStrip,
+                    Input::Caps | Input::Patches => wgpu::PrimitiveTopology::TriangleList,
+                },
+                unclipped_depth: unclipped,
+                ..Default::default()
+            },
+            depth_stencil: None,
+        }
+    }
+
+    fn screen_recipe<'a>(
+        &self,
+        module: &'a wgpu::ShaderModule,
+        layout: &'a wgpu::BindGroupLayout,
+    ) -> Recipe<'a> {
+        Recipe {
+            module,
+            layouts: vec![layout],
+            vertex: "vs_screen",
+            fragment: None,
+            targets: Vec::new(),
+            primitive: wgpu::PrimitiveState::default(),
+            depth_stencil: None,
+        }
+    }
+
+    fn build(&self, device: &wgpu::Device, recipe: &Recipe<'_>) -> wgpu::RenderPipeline {
+        let layouts: Vec<_> = recipe.layouts.iter().map(|&layout| Some(layout)).collect();
+        let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some(recipe.vertex),
+            bind_group_layouts: &layouts,
+            immediate_size: 0,
+        });
+        device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some(recipe.fragment.as_deref().unwrap_or(recipe.vertex)),
+            layout: Some(&layout),
+            vertex: wgpu::VertexState {
+                module: recipe.module,
+                entry_point: Some(recipe.vertex),
+                compilation_options: Default::default(),
+                buffers: &[],
+            },
+            primitive: recipe.primitive,
+            depth_stencil: recipe.depth_stencil.clone(),
+            multisample: wgpu::MultisampleState {
+                count: self.options.sample_count,
+                ..Default::default()
+            },
+            fragment: recipe.fragment.as_deref().map(|entry| wgpu::FragmentState {
+                module: recipe.module,
+                entry_point: Some(entry),
+                compilation_options: Default::default(),
+                targets: &recipe.targets,
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+    }
+}
+
+/// What differs between the pipelines.
+struct Recipe<'a> {
+    module: &'a wgpu::ShaderModule,
+    layouts: Vec<&'a wgpu::BindGroupLayout>,
+    vertex: &'static str,
+    fragment: Option<String>,
+    targets: Vec<Option<wgpu::ColorTargetState>>,
+    primitive: wgpu::PrimitiveState,
+    depth_stencil: Option<wgpu::DepthStencilState>,
+}
+
+const ADD: wgpu::BlendState = {
+    let component = wgpu::BlendComponent {
+        src_factor: wgpu::BlendFactor::One,
+        dst_factor: wgpu::BlendFactor::One,
+        operation: wgpu::BlendOperation::Add,
+    };
+    wgpu::BlendState {
+        color: component,
+        alpha: component,
+    }
+};
+
+fn vertex_entry(input: Input) -> &'static str {
+    match input {
+        Input::Caps => "vs_cap",
+        Input::Walls => "vs_wall",
+        Input::Patches => "vs_patch",
+    }
+}
+
+fn cover_entry(input: Input) -> &'static str {
+    match input {
+        Input::Caps => "vs_cap",
+        Input::Walls => "vs_wall_cover",
+        Input::Patches => "vs_patch_cover",
+    }
+}
+
+fn depth_stencil(
+    format: wgpu::TextureFormat,
+    compare: wgpu::CompareFunction,
+    stencil: wgpu::StencilState,
+) -> wgpu::DepthStencilState {
+    wgpu::DepthStencilState {
+        format,
+        depth_write_enabled: Some(false),
+        depth_compare: Some(compare),
+        stencil,
+        bias: wgpu::DepthBiasState::default(),
+    }
+}
+
+/// Behind the surface, back faces count up and front faces down (Heidmann's counting, z-fail).
+fn counting_stencil() -> wgpu::StencilState {
+    let face = |pass_op| wgpu::StencilFaceState {
+        compare: wgpu::CompareFunction::Always,
+        fail_op: wgpu::StencilOperation::Keep,
+        depth_fail_op: wgpu::StencilOperation::Keep,
+        pass_op,
+    };
+    wgpu::StencilState {
+        front: face(wgpu::StencilOperation::DecrementWrap),
+        back: face(wgpu::StencilOperation::IncrementWrap),
+        read_mask: 0xff,
+        write_mask: 0xff,
+    }
+}
+
+fn covering_stencil() -> wgpu::StencilState {
+    let face = wgpu::StencilFaceState {
+        compare: wgpu::CompareFunction::NotEqual,
+        fail_op: wgpu::StencilOperation::Keep,
+        depth_fail_op: wgpu::StencilOperation::Keep,
+        pass_op: wgpu::StencilOperation::Zero,
+    };
+    wgpu::StencilState {
+        front: face,
+        back: face,
+        read_mask: 0xff,
+        write_mask: 0xff,
+    }
+}
+
+fn shader(device: &wgpu::Device, label: &str, source: String) -> wgpu::ShaderModule {
+    device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some(label),
+        source: wgpu::ShaderSource::Wgsl(source.into()),
+    })
+}
+
+fn layout(
+    device: &wgpu::Device,
+    label: &str,
+    visibility: wgpu::ShaderStages,
+    bindings: &[wgpu::BindingType],
+) -> wgpu::BindGroupLayout {
+    let entries: Vec<_> = (0..)
+        .zip(bindings)
+        .map(|(binding, &ty)| wgpu::BindGroupLayoutEntry {
+            binding,
+            visibility,
+            ty,
+            count: None,
+        })
+        .collect();
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some(label),
+        entries: &entries,
+    })
+}

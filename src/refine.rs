@@ -1,0 +1,396 @@
+//! Per-frame refinement: boundary chords near the eye are replaced by finer ones on the true edge.
+//!
+//! A stored chord may lie metres beside the true edge, its end columns may stand too far away for
+//! single precision, and its flat wall misses the edge where the end normals are skew. Near the eye
+//! that shows. A *patch* takes the place of one chord's wall and has the same boundary, so that what
+//! is drawn stays closed whatever the neighbours do: finer walls, *ears* between chord and polyline
+//! at top and bottom, and, where columns are cut in height, slivers between cut and straight column.
+
+use glam::DVec3;
+
+use crate::{
+    curve::CurveOn,
+    fill_mesh::{Arc, FillMesh},
+    fixed_point::{FixedVertex, encode},
+    sight::Sight,
+};
+
+/// Ends of walls and columns lie within this many times the distance at which they are seen: single
+/// precision then displaces what is between by less than 0.01 px of 10⁻³ rad.
+const REACH: f64 = 150.0;
+/// Halvings of one chord; 2⁻³² of the longest is below the vertex encoding.
+const MAX_HALVINGS: u32 = 32;
+
+/// How an index of a patch draws its vertex; the same in extrude.wgsl.
+const BOTTOM: u32 = 0;
+const TOP: u32 = 1;
+const AS_IS: u32 = 2;
+
+/// Triangles that replace the walls of refined chords of one mesh.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Patch {
+    /// Surface points of columns and cut points.
+    pub vertices: Vec<FixedVertex>,
+    /// Triangle list; 4 · vertex + how it is drawn.
+    pub indices: Vec<u32>,
+    /// The refined chords, in mesh order.
+    pub chords: Vec<RefinedChord>,
+}
+
+/// One chord whose wall is left out, and the triangles in its place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct RefinedChord {
+    pub arc: u32,
+    /// Boundary vertex where the chord starts.
+    pub vertex: u32,
+    pub first_index: u32,
+    pub index_count: u32,
+}
+
+impl Patch {
+    /// Refines what `sight` needs of the arc.
+    pub(crate) fn refine_arc(&mut self, mesh: &FillMesh, arc_index: u32, sight: &Sight) {
+        let arc = &mesh.arcs[arc_index as usize];
+        let nearest_m = sight.distance_to_m(&arc.bounds);
+        let longest_m = 2.1 * arc.bounds.radius_rad * mesh.ellipsoid.a_m;
+        let limits = Limits::at(sight, nearest_m);
+        if !limits.exceeded_by(longest_m, mesh_deviation_m(mesh, arc)) {
+            return;
+        }
+        for vertex in arc.first_vertex..arc.first_vertex + arc.vertex_count - 1 {
+            let a = mesh.vertices[vertex as usize];
+            let b = mesh.vertices[vertex as usize + 1];
+            let limits = Limits::at(sight, sight.distance_to_wall_m(a, b));
+            let deviation_m = f64::from(mesh.boundary[vertex as usize].deviation_m);
+            if limits.exceeded_by(a.distance(b), deviation_m) {
+                self.refine_chord(mesh, arc_index, vertex, sight);
+            }
+        }
+    }
+
+    fn refine_chord(&mut self, mesh: &FillMesh, arc: u32, vertex: u32, sight: &Sight) {
+        let first_index = self.indices.len() as u32;
+        let points_m = true_edge_points(mesh, vertex, sight);
+        let columns: Vec<Column> = points_m
+            .iter()
+            .map(|&point_m| self.add_column(point_m, sight))
+            .collect();
+        for pair in columns.windows(2) {
+            self.add_wall(&pair[0], &pair[1]);
+        }
+        self.add_ears(&columns);
+        self.add_slivers(&columns[0], &columns[columns.len() - 1]);
+        self.chords.push(RefinedChord {
+            arc,
+            vertex,
+            first_index,
+            index_count: self.indices.len() as u32 - first_index,
+        });
+    }
+
+    /// A column from bottom to top. It is cut above and below the eye where its ends stand too far
+    /// away, at heights that depend on the column and the eye alone.
+    fn add_column(&mut self, surface_m: DVec3, sight: &Sight) -> Column {
+        let base = self.vertices.len() as u32;
+        self.vertices.push(encode(surface_m));
+        let distance_m = surface_m.distance(sight.eye_ecef_m);
+        let bottom_m = sight.extrusion.bottom_at_m(distance_m);
+        let top_m = sight.extrusion.top_at_m(distance_m);
+        let seen_from_m = sight.distance_to_wall_m(surface_m, surface_m);
+        let middle_m = sight.nearest_surface_height_m();
+        let normal = sight.ellipsoid.normal_at_surface(surface_m);
+        let mut corners = vec![4 * base + BOTTOM];
+        for cut_m in [
+            middle_m - REACH * seen_from_m,
+            middle_m + REACH * seen_from_m,
+        ] {
+            if cut_m > bottom_m + 1.0 && cut_m < top_m - 1.0 {
+                corners.push(4 * self.vertices.len() as u32 + AS_IS);
+                self.vertices.push(encode(surface_m + normal * cut_m));
+            }
+        }
+        corners.push(4 * base + TOP);
+        Column { base, corners }
+    }
+
+    /// The wall between two columns, outward to the right of the walk from `a` to `b`.
+    fn add_wall(&mut self, a: &Column, b: &Column) {
+        let (mut i, mut j) = (0, 0);
+        while i + 1 < a.corners.len() || j + 1 < b.corners.len() {
+            let (low_a, low_b) = (a.corners[i], b.corners[j]);
+            // Cut columns first: the diagonals then stay within the same range of heights.
+            let climb_a = j + 1 == b.corners.len()
+                || (i + 1 < a.corners.len() && a.left_above(i) >= b.left_above(j));
+            if climb_a {
+                i += 1;
+                self.indices.extend([a.corners[i], low_a, low_b]);
+            } else {
+                j += 1;
+                self.indices.extend([b.corners[j], low_a, low_b]);
+            }
+        }
+    }
+
+    /// Between the chord and the polyline: the caps keep the chord, the walls follow the polyline.
+    fn add_ears(&mut self, columns: &[Column]) {
+        let start = columns[0].base;
+        for pair in columns[1..].windows(2) {
+            let (near, far) = (pair[0].base, pair[1].base);
+            self.indices
+                .extend([start, near, far].map(|vertex| 4 * vertex + TOP));
+            self.indices
+                .extend([start, far, near].map(|vertex| 4 * vertex + BOTTOM));
+        }
+    }
+
+    /// Between the cut end columns and the straight ones that the neighbours have.
+    fn add_slivers(&mut self, start: &Column, end: &Column) {
+        let top = start.corners[start.corners.len() - 1];
+        for pair in start.corners[..start.corners.len() - 1].windows(2) {
+            self.indices.extend([top, pair[0], pair[1]]);
+        }
+        let bottom = end.corners[0];
+        for pair in end.corners[1..].windows(2) {
+            self.indices.extend([bottom, pair[1], pair[0]]);
+        }
+    }
+}
+
+/// A column's vertex and its corners from bottom to top, as indices of the patch.
+struct Column {
+    base: u32,
+    corners: Vec<u32>,
+}
+
+impl Column {
+    fn left_above(&self, corner: usize) -> usize {
+        self.corners.len() - 1 - corner
+    }
+}
+
+/// What a chord may be where it is seen from a given distance.
+struct Limits {
+    tolerance_m: f64,
+    length_m: f64,
+    /// Length times wall height, square metres.
+    area_m2: f64,
+    wall_m: f64,
+    /// Whether columns must be cut.
+    columns_reach_too_far: bool,
+}
+
+impl Limits {
+    fn at(sight: &Sight, distance_m: f64) -> Self {
+        let tolerance_m = sight.tolerance_m(distance_m);
+        let top_m = sight.extrusion.top_at_m(distance_m);
+        let bottom_m = sight.extrusion.bottom_at_m(distance_m);
+        let middle_m = sight.nearest_surface_height_m();
+        let reach_m = (top_m - middle_m).max(middle_m - bottom_m);
+        let ellipsoid = sight.ellipsoid;
+        // e′²: flat walls with skew end normals miss the edge by e′²·cos²φ·(s/R)·H/8.
+        let skew = (ellipsoid.a_m / ellipsoid.b_m).powi(2) - 1.0;
+        Self {
+            tolerance_m,
+            length_m: REACH * distance_m,
+            area_m2: 8.0 * ellipsoid.b_m * tolerance_m / skew.abs(),
+            wall_m: top_m - bottom_m,
+            columns_reach_too_far: reach_m > REACH * distance_m,
+        }
+    }
+
+    /// Whether a chord is too coarse whatever its columns do.
+    fn too_coarse(&self, length_m: f64, deviation_m: f64) -> bool {
+        deviation_m > self.tolerance_m
+            || length_m > self.length_m
+            || length_m * self.wall_m > self.area_m2
+    }
+
+    fn exceeded_by(&self, length_m: f64, deviation_m: f64) -> bool {
+        self.columns_reach_too_far || self.too_coarse(length_m, deviation_m)
+    }
+}
+
+/// Points on the true edge, from the chord's first to its last, fine enough for `sight`.
+fn true_edge_points(mesh: &FillMesh, vertex: u32, sight: &Sight) -> Vec<DVec3> {
+    let vertex = vertex as usize;
+    let (from, to) = (mesh.boundary[vertex], mesh.boundary[vertex + 1]);
+    let end_t = if to.curve == from.curve { to.t } else { 1.0 };
+    let curve = mesh.curves[from.curve as usize].on(&mesh.ellipsoid);
+    let mut points_m = vec![mesh.vertices[vertex]];
+    let start = (from.t, mesh.vertices[vertex]);
+    halve(
+        &curve,
+        start,
+        (end_t, mesh.vertices[vertex + 1]),
+        sight,
+        MAX_HALVINGS,
+        &mut points_m,
+    );
+    points_m
+}
+
+/// Appends the points after `a` up to `b`; each is a curve parameter and its surface point.
+fn halve(
+    curve: &CurveOn,
+    a: (f64, DVec3),
+    b: (f64, DVec3),
+    sight: &Sight,
+    halvings: u32,
+    points_m: &mut Vec<DVec3>,
+) {
+    let limits = Limits::at(sight, sight.distance_to_wall_m(a.1, b.1));
+    let too_coarse =
+        halvings > 0 && limits.too_coarse(a.1.distance(b.1), curve.deviation_bound_m(a.0, b.0));
+    if !too_coarse {
+        points_m.push(b.1);
+        return;
+    }
+    let middle_t = 0.5 * (a.0 + b.0);
+    let middle = (middle_t, curve.ecef(middle_t));
+    halve(curve, a, middle, sight, halvings - 1, points_m);
+    halve(curve, middle, b, sight, halvings - 1, points_m);
+}
+
+fn mesh_deviation_m(mesh: &FillMesh, arc: &Arc) -> f64 {
+    let first = arc.first_vertex as usize;
+    mesh.boundary[first..first + arc.vertex_count as usize]
+        .iter()
+        .fold(0.0, |most: f32, vertex| most.max(vertex.deviation_m))
+        .into()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::HashMap;
+
+    use glam::{DMat3, DMat4, DVec4, UVec2};
+
+    use super::*;
+    use crate::{
+        fill_mesh::{BoundaryVertex, Bounds},
+        geodetic::LonLat,
+        options::{Camera, Frame, HeightRange, RendererOptions},
+        region::EdgeKind,
+        {Curve, Ellipsoid},
+    };
+
+    /// One edge of about 100 km as a single arc of one chord.
+    fn one_edge(kind: EdgeKind, from: LonLat, to: LonLat) -> FillMesh {
+        let ellipsoid = Ellipsoid::WGS84;
+        let curve = Curve::between(kind, from, to);
+        let on = curve.on(&ellipsoid);
+        let (a, b) = (on.ecef(0.0), on.ecef(1.0));
+        let deviation_m = on.deviation_bound_m(0.0, 1.0) as f32;
+        let middle = (a + b) / ellipsoid.radii_m();
+        FillMesh {
+            ellipsoid,
+            vertices: vec![a, b],
+            boundary: vec![
+                BoundaryVertex {
+                    curve: 0,
+                    deviation_m,
+                    t: 0.0,
+                },
+                BoundaryVertex {
+                    curve: 0,
+                    deviation_m: 0.0,
+                    t: 1.0,
+                },
+            ],
+            curves: vec![curve],
+            arcs: vec![Arc {
+                first_vertex: 0,
+                vertex_count: 2,
+                left: Some(0),
+                right: None,
+                bounds: Bounds {
+                    axis: middle.normalize(),
+                    radius_rad: 0.01,
+                },
+            }],
+            ..Default::default()
+        }
+    }
+
+    fn looking_down(mesh: &FillMesh, height_m: f64, terrain: HeightRange) -> Sight {
+        let curve = mesh.curves[0].on(&mesh.ellipsoid);
+        let middle_m = curve.ecef(0.5);
+        let normal = mesh.ellipsoid.normal_at_surface(middle_m);
+        let right = normal.any_orthonormal_vector();
+        let view_from_ecef = DMat3::from_cols(right, normal.cross(right), normal).transpose();
+        let scale = 1.0 / 30f64.to_radians().tan();
+        let clip_from_view = DMat4::from_cols(
+            DVec4::new(scale, 0.0, 0.0, 0.0),
+            DVec4::new(0.0, scale, 0.0, 0.0),
+            DVec4::new(0.0, 0.0, 0.0, -1.0),
+            DVec4::new(0.0, 0.0, 0.1 * height_m, 0.0),
+        );
+        let frame = Frame {
+            camera: Camera {
+                eye_ecef_m: middle_m + normal * (terrain.max_m + height_m),
+                view_from_ecef,
+                clip_from_view,
+            },
+            size_px: UVec2::new(720, 720),
+            terrain,
+            pixel_error: 0.0,
+            host_pixel_error: 1.0,
+        };
+        Sight::new(mesh.ellipsoid, 1_000.0, &frame, &RendererOptions::default()).expect("valid")
+    }
+
+    /// A corner by what it is: the stored vertex and how it is drawn.
+    type Corner = (FixedVertex, u32);
+
+    fn add_boundary(edges: &mut HashMap<(Corner, Corner), i32>, triangle: [Corner; 3], sign: i32) {
+        for side in 0..3 {
+            let (from, to) = (triangle[side], triangle[(side + 1) % 3]);
+            if from < to {
+                *edges.entry((from, to)).or_default() += sign;
+            } else {
+                *edges.entry((to, from)).or_default() -= sign;
+            }
+        }
+    }
+
+    #[test]
+    fn a_patch_has_the_boundary_of_the_wall_it_replaces() {
+        let terrains = [(0.0, 0.0), (-11_000.0, 9_000.0), (4_000.0, 4_000.0)];
+        let (from, to) = (LonLat::new(10.0, 47.0), LonLat::new(11.2, 47.3));
+        for kind in [EdgeKind::Geodesic, EdgeKind::Rhumb, EdgeKind::Straight] {
+            for (min_m, max_m) in terrains {
+                for height_m in [0.5, 1.0, 10.0, 1e3, 1e4] {
+                    let mesh = one_edge(kind, from, to);
+                    let sight = looking_down(&mesh, height_m, HeightRange { min_m, max_m });
+                    let mut patch = Patch::default();
+                    patch.refine_arc(&mesh, 0, &sight);
+                    assert!(
+                        height_m > 100.0 || patch.chords.len() == 1,
+                        "{kind:?}, {height_m} m"
+                    );
+                    if patch.chords.is_empty() {
+                        continue;
+                    }
+
+                    let mut edges = HashMap::new();
+                    for triangle in patch.indices.as_chunks::<3>().0 {
+                        let corners =
+                            triangle.map(|index| (patch.vertices[(index / 4) as usize], index % 4));
+                        add_boundary(&mut edges, corners, 1);
+                    }
+                    let [a, b] = [0, 1].map(|vertex| encode(mesh.vertices[vertex]));
+                    let wall = [
+                        [(a, TOP), (a, BOTTOM), (b, TOP)],
+                        [(a, BOTTOM), (b, BOTTOM), (b, TOP)],
+                    ];
+                    for triangle in wall {
+                        add_boundary(&mut edges, triangle, -1);
+                    }
+                    assert!(edges.values().all(|&sum| sum == 0));
+                    // Refining costs little: a logarithm of the edge's length over the height.
+                    assert!(patch.vertices.len() < 3_000, "{}", patch.vertices.len());
+                }
+            }
+        }
+    }
+}

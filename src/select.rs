@@ -1,0 +1,193 @@
+//! Selection: what of a mesh one view draws in one frame.
+
+use std::ops::Range;
+
+use crate::{fill_mesh::FillMesh, layers::PieceCode, refine::Patch, sight::Sight};
+
+/// What is drawn of one mesh.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Selection {
+    pub layers: Vec<LayerDraws>,
+    /// Finer walls in the place of chords near the eye.
+    pub patch: Patch,
+    pub fills_drawn: u32,
+    pub fills_culled: u32,
+}
+
+/// Draws of one mesh in one layer.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct LayerDraws {
+    /// By piece plus one: packed winding code; 0 for what is not in this layer, hidden or culled.
+    pub codes: Vec<u32>,
+    pub caps: Vec<CapRun>,
+    /// Boundary slots of wall strips.
+    pub walls: Vec<Range<u32>>,
+    pub patches: Vec<PatchRun>,
+}
+
+/// Contiguous triangles of pieces with one code.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct CapRun {
+    /// The first piece.
+    pub piece: u32,
+    pub triangles: Range<u32>,
+}
+
+/// Contiguous indices of a patch that belong to one arc.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct PatchRun {
+    pub arc: u32,
+    pub indices: Range<u32>,
+}
+
+/// Slot of a boundary vertex on the GPU: one slot separates an arc from the next.
+pub(crate) fn slot(arc: u32, vertex: u32) -> u32 {
+    vertex + arc
+}
+
+impl Selection {
+    /// Culls, refines and lists what to draw.
+    pub(crate) fn of(
+        mesh: &FillMesh,
+        codes: &[Option<PieceCode>],
+        layer_count: usize,
+        sight: &Sight,
+    ) -> Self {
+        let shown: Vec<Option<PieceCode>> = mesh
+            .pieces
+            .iter()
+            .zip(codes)
+            .map(|(piece, code)| code.filter(|_| !sight.beyond_horizon(&piece.bounds)))
+            .collect();
+        let mut selection = Self::default();
+        selection.count_fills(mesh, codes, &shown);
+        let arc_seen: Vec<bool> = mesh
+            .arcs
+            .iter()
+            .map(|arc| !sight.outside_side_plane(&arc.bounds))
+            .collect();
+        for (index, arc) in mesh.arcs.iter().enumerate() {
+            let code_of = |side: Option<u32>| side.and_then(|piece| shown[piece as usize]);
+            if arc_seen[index] && code_of(arc.left) != code_of(arc.right) {
+                selection.patch.refine_arc(mesh, index as u32, sight);
+            }
+        }
+        selection.layers = (0..layer_count)
+            .map(|layer| {
+                let in_layer: Vec<u32> = std::iter::once(0)
+                    .chain(shown.iter().map(|code| match code {
+                        Some(code) if code.layer == layer => code.packed,
+                        _ => 0,
+                    }))
+                    .collect();
+                LayerDraws {
+                    caps: cap_runs(mesh, &in_layer, sight),
+                    walls: wall_runs(mesh, &in_layer, &arc_seen, &selection.patch),
+                    patches: patch_runs(mesh, &in_layer, &selection.patch),
+                    codes: in_layer,
+                }
+            })
+            .collect();
+        selection
+    }
+
+    fn count_fills(
+        &mut self,
+        mesh: &FillMesh,
+        codes: &[Option<PieceCode>],
+        shown: &[Option<PieceCode>],
+    ) {
+        for fill in &mesh.fills {
+            let pieces = fill.first_piece as usize..(fill.first_piece + fill.piece_count) as usize;
+            let any =
+                |codes: &[Option<PieceCode>]| codes[pieces.clone()].iter().any(Option::is_some);
+            if any(shown) {
+                self.fills_drawn += 1;
+            } else if any(codes) {
+                self.fills_culled += 1;
+            }
+        }
+    }
+}
+
+fn code_of(codes: &[u32], side: Option<u32>) -> u32 {
+    side.map_or(0, |piece| codes[piece as usize + 1])
+}
+
+fn cap_runs(mesh: &FillMesh, codes: &[u32], sight: &Sight) -> Vec<CapRun> {
+    let mut runs: Vec<CapRun> = Vec::new();
+    for (index, piece) in mesh.pieces.iter().enumerate() {
+        if codes[index + 1] == 0 || sight.outside_side_plane(&piece.bounds) {
+            continue;
+        }
+        let triangles = piece.first_triangle..piece.first_triangle + piece.triangle_count;
+        match runs.last_mut() {
+            Some(run)
+                if run.triangles.end == triangles.start
+                    && codes[run.piece as usize + 1] == codes[index + 1] =>
+            {
+                run.triangles.end = triangles.end;
+            }
+            _ => runs.push(CapRun {
+                piece: index as u32,
+                triangles,
+            }),
+        }
+    }
+    runs
+}
+
+fn wall_runs(mesh: &FillMesh, codes: &[u32], arc_seen: &[bool], patch: &Patch) -> Vec<Range<u32>> {
+    let mut runs: Vec<Range<u32>> = Vec::new();
+    let mut refined = patch.chords.iter().peekable();
+    for (index, arc) in (0..).zip(&mesh.arcs) {
+        let mut start = arc.first_vertex;
+        let end = arc.first_vertex + arc.vertex_count;
+        let weighs = code_of(codes, arc.left) != code_of(codes, arc.right);
+        let drawn = weighs && arc_seen[index as usize];
+        while let Some(chord) = refined.next_if(|chord| chord.arc == index) {
+            if drawn {
+                let slots = slot(index, start)..slot(index, chord.vertex + 1);
+                add_wall_run(&mut runs, slots, start == arc.first_vertex);
+            }
+            start = chord.vertex + 1;
+        }
+        if drawn {
+            let slots = slot(index, start)..slot(index, end);
+            add_wall_run(&mut runs, slots, start == arc.first_vertex);
+        }
+    }
+    runs
+}
+
+/// Joins an arc's run to that of the arc before, over the break; drops one without a chord.
+fn add_wall_run(runs: &mut Vec<Range<u32>>, slots: Range<u32>, starts_arc: bool) {
+    if slots.len() < 2 {
+        return;
+    }
+    match runs.last_mut() {
+        Some(last) if starts_arc && last.end + 1 == slots.start => last.end = slots.end,
+        _ => runs.push(slots),
+    }
+}
+
+fn patch_runs(mesh: &FillMesh, codes: &[u32], patch: &Patch) -> Vec<PatchRun> {
+    let mut runs: Vec<PatchRun> = Vec::new();
+    for chord in &patch.chords {
+        let arc = &mesh.arcs[chord.arc as usize];
+        if code_of(codes, arc.left) == code_of(codes, arc.right) {
+            continue;
+        }
+        let indices = chord.first_index..chord.first_index + chord.index_count;
+        match runs.last_mut() {
+            Some(run) if run.arc == chord.arc && run.indices.end == indices.start => {
+                run.indices.end = indices.end;
+            }
+            _ => runs.push(PatchRun {
+                arc: chord.arc,
+                indices,
+            }),
+        }
+    }
+    runs
+}
