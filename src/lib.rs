@@ -4,6 +4,8 @@ mod authalic;
 mod boundary_graph;
 mod code;
 mod count;
+#[cfg(feature = "countries")]
+pub mod countries;
 pub mod curve;
 mod edge_grid;
 pub mod ellipsoid;
@@ -11,6 +13,8 @@ pub mod error;
 pub mod fill_mesh;
 mod fixed_point;
 pub mod frame_stats;
+#[cfg(feature = "geojson")]
+pub mod geo_json;
 pub mod geodetic;
 mod gpu_mesh;
 mod headings;
