@@ -126,8 +126,8 @@ impl Ellipsoid {
         for _ in 0..12 {
             let (sin, cos) = reduced.sin_cos();
             let value = a * axis_distance_m * sin - b * z_m * cos - focus_squared * sin * cos;
-            let slope = a * axis_distance_m * cos + b * z_m * sin
-                - focus_squared * (cos * cos - sin * sin);
+            let slope =
+                a * axis_distance_m * cos + b * z_m * sin - focus_squared * (cos * cos - sin * sin);
             let step = value / slope;
             reduced -= step;
             if !step.is_finite() {
@@ -152,7 +152,9 @@ mod tests {
     #[test]
     fn geodetic_inverts_ecef() {
         for ellipsoid in [Ellipsoid::WGS84, Ellipsoid::MARS, Ellipsoid::MOON] {
-            for lat_deg in [-90.0, -89.999, -45.0, -1e-9, 0.0, 12.3, 60.0, 89.999_999, 90.0] {
+            for lat_deg in [
+                -90.0, -89.999, -45.0, -1e-9, 0.0, 12.3, 60.0, 89.999_999, 90.0,
+            ] {
                 for lon_deg in [-180.0, -77.0, 0.0, 1e-9, 135.0] {
                     for height_m in [-11_000.0, 0.0, 9_000.0, 4e5, 4e8] {
                         let position = LonLat::new(lon_deg, lat_deg);

@@ -10,6 +10,8 @@ pub mod options;
 pub mod region;
 pub mod renderer;
 pub mod repair;
+#[cfg_attr(not(test), expect(dead_code, reason = "used by the mesh build"))]
+mod triangulate;
 
 pub use wgpu;
 
