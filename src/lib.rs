@@ -42,6 +42,8 @@ mod stream_buffer;
 mod targets;
 pub mod view;
 mod volumes;
+#[cfg_attr(not(test), expect(dead_code, reason = "used by the mesh build"))]
+mod triangulate;
 
 pub use {glam, wgpu};
 
