@@ -79,6 +79,11 @@ impl DirectedEdge {
         self.0 >> 1
     }
 
+    /// A number for tables over directed edges: below twice the number of edges.
+    pub(crate) fn index(self) -> usize {
+        self.0 as usize
+    }
+
     pub(crate) fn is_forward(self) -> bool {
         self.0 & 1 == 0
     }
@@ -175,7 +180,7 @@ impl BoundaryGraph {
         }
     }
 
-    pub(crate) fn from_node(&self, directed: DirectedEdge) -> u32 {
+    pub(crate) fn start_node(&self, directed: DirectedEdge) -> u32 {
         let edge = &self.edges[directed.edge() as usize];
         if directed.is_forward() {
             edge.from
@@ -184,8 +189,8 @@ impl BoundaryGraph {
         }
     }
 
-    pub(crate) fn to_node(&self, directed: DirectedEdge) -> u32 {
-        self.from_node(directed.reversed())
+    pub(crate) fn end_node(&self, directed: DirectedEdge) -> u32 {
+        self.start_node(directed.reversed())
     }
 
     pub(crate) fn position(&self, node: u32) -> LonLat {

@@ -79,6 +79,17 @@ impl Curve {
     /// Costs nothing for `Straight` edges, two microseconds for geodesics (the inverse problem is
     /// solved here, once).
     pub fn on(&self, ellipsoid: &Ellipsoid) -> CurveOn {
+        let [start, end] = [self.from, self.to].map(|end| ellipsoid.ecef(end.canonical(), 0.0));
+        self.on_between(ellipsoid, start, end)
+    }
+
+    /// [`Self::on`] for who knows the positions of the ends already.
+    pub(crate) fn on_between(
+        &self,
+        ellipsoid: &Ellipsoid,
+        start_ecef_m: DVec3,
+        end_ecef_m: DVec3,
+    ) -> CurveOn {
         let follows_grid = self.turn_deg == 0.0 || self.from.lat_deg == self.to.lat_deg;
         let course = match self.kind {
             EdgeKind::Geodesic => Course::Geodesic(GeodesicCourse::new(ellipsoid, self)),
@@ -91,8 +102,8 @@ impl Curve {
         CurveOn {
             curve: *self,
             ellipsoid: *ellipsoid,
-            start_ecef_m: ellipsoid.ecef(self.from.canonical(), 0.0),
-            end_ecef_m: ellipsoid.ecef(self.to.canonical(), 0.0),
+            start_ecef_m,
+            end_ecef_m,
             course,
         }
     }

@@ -23,7 +23,7 @@ pub(crate) fn sort_counter_clockwise(
     let Some(&first) = edges.first() else {
         return true;
     };
-    let at_pole = graph.nodes[graph.from_node(first) as usize].is_pole();
+    let at_pole = graph.nodes[graph.start_node(first) as usize].is_pole();
     let straight = edges
         .iter()
         .all(|&edge| graph.walk(edge).kind == EdgeKind::Straight);
@@ -82,7 +82,7 @@ fn polar_heading(graph: &BoundaryGraph, edge: DirectedEdge) -> (f64, f64) {
 
 /// Elsewhere: the direction of the curve's first metre.
 fn curved_heading(ellipsoid: &Ellipsoid, graph: &BoundaryGraph, edge: DirectedEdge) -> (f64, f64) {
-    let position = graph.position(graph.from_node(edge));
+    let position = graph.position(graph.start_node(edge));
     let curve = graph.walk(edge).curve().on(ellipsoid);
     let start = curve.ecef(0.0);
     let length_m = start.distance(curve.ecef(1.0)).max(1e-9 * ellipsoid.a_m);

@@ -149,7 +149,7 @@ pub(crate) fn point_on(
     edges: impl Iterator<Item = DirectedEdge>,
 ) -> LatticePoint {
     edges
-        .map(|edge| graph.nodes[graph.from_node(edge) as usize])
+        .map(|edge| graph.nodes[graph.start_node(edge) as usize])
         .find(|point| !point.is_pole())
         .unwrap_or_default()
 }

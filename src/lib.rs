@@ -1,12 +1,15 @@
 //! Fills regions on a globe.
 
+mod arcs;
 mod authalic;
 mod boundary_graph;
+mod bounds;
 mod code;
 mod count;
 #[cfg(feature = "countries")]
 pub mod countries;
 pub mod curve;
+mod densify;
 mod edge_grid;
 pub mod ellipsoid;
 pub mod error;
@@ -20,13 +23,14 @@ mod gpu_mesh;
 mod headings;
 mod inside;
 mod isometric;
-mod isometric;
 mod lattice;
 mod layers;
 mod meeting;
 mod meridian_index;
+mod mesh_build;
 mod noding;
 pub mod options;
+mod overlaps;
 mod pipelines;
 mod refine;
 pub mod region;
@@ -40,10 +44,9 @@ mod sight;
 mod simple_loops;
 mod stream_buffer;
 mod targets;
+mod triangulate;
 pub mod view;
 mod volumes;
-#[cfg_attr(not(test), expect(dead_code, reason = "used by the mesh build"))]
-mod triangulate;
 
 pub use {glam, wgpu};
 
@@ -51,7 +54,7 @@ pub use crate::{
     curve::{Curve, CurveOn},
     ellipsoid::Ellipsoid,
     error::{RegionError, RendererError},
-    fill_mesh::FillMesh,
+    fill_mesh::{FillMesh, MeshOptions},
     frame_stats::FrameStats,
     geodetic::LonLat,
     options::{

@@ -199,8 +199,8 @@ mod tests {
         )?;
         for (edge, next) in walk.edges.iter().zip(walk.edges.iter().cycle().skip(1)) {
             assert_eq!(
-                graph.to_node(*edge),
-                graph.from_node(*next),
+                graph.end_node(*edge),
+                graph.start_node(*next),
                 "walks are closed"
             );
         }

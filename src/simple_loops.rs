@@ -125,7 +125,7 @@ fn report_pinches(
     for (ring, walk) in polygon.rings.iter().enumerate() {
         let mut last_vertex = u32::MAX;
         for (&edge, &vertex) in walk.edges.iter().zip(&walk.vertices) {
-            let node = graph.from_node(edge);
+            let node = graph.start_node(edge);
             // Later parts of a split edge start at nodes that are no vertices of this ring.
             let is_vertex = std::mem::replace(&mut last_vertex, vertex) != vertex;
             if is_vertex && stars.edges_at(node).len() > 2 && visited.insert(node, ()).is_none() {
@@ -154,7 +154,7 @@ impl Stars {
         for &(edge, _) in uses {
             for outgoing in [edge, edge.reversed()] {
                 edges_at
-                    .entry(graph.from_node(outgoing))
+                    .entry(graph.start_node(outgoing))
                     .or_default()
                     .push(outgoing);
             }
@@ -182,7 +182,7 @@ impl Stars {
         while let Some(&edge) = connected.get(next) {
             next += 1;
             for outgoing in [edge, edge.reversed()] {
-                let star = self.edges_at(graph.from_node(outgoing));
+                let star = self.edges_at(graph.start_node(outgoing));
                 let Some(own) = star.iter().position(|&other| other == outgoing) else {
                     continue;
                 };
@@ -191,7 +191,7 @@ impl Stars {
                         continue;
                     }
                     // Same parity: the same role, in or out.
-                    let alike = (index + star.len() - own) % 2 == 0 || (index + own) % 2 == 0;
+                    let alike = (index + own).is_multiple_of(2);
                     let is_out = alike == (outgoing == edge);
                     let other = if is_out { other } else { other.reversed() };
                     directed.insert(other.edge(), other);
@@ -213,12 +213,12 @@ impl Stars {
             let mut index_of_node: FxHashMap<u32, usize> = FxHashMap::default();
             let mut edge = start;
             while walked.insert(edge.edge(), ()).is_none() {
-                index_of_node.insert(graph.from_node(edge), path.len());
+                index_of_node.insert(graph.start_node(edge), path.len());
                 path.push(edge);
-                let node = graph.to_node(edge);
+                let node = graph.end_node(edge);
                 if let Some(&first) = index_of_node.get(&node) {
                     for passed in &path[first..] {
-                        index_of_node.remove(&graph.from_node(*passed));
+                        index_of_node.remove(&graph.start_node(*passed));
                     }
                     loops.push(path.split_off(first));
                 }
