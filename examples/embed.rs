@@ -35,7 +35,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         .country("Italy")
         .ok_or("no such country")?;
     let mesh = FillMesh::build(&[italy.region], &MeshOptions::default())?;
-    let italy = renderer.insert(&device, &queue, mesh);
+    let italy = renderer.insert(mesh);
     renderer.set_style(
         italy,
         0,
@@ -59,7 +59,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     };
     let mut encoder = device.create_command_encoder(&Default::default());
     draw_globe(&mut encoder, &color_view, &depth_view);
-    let stats = renderer.prepare(&device, &queue, &mut view, &frame)?;
+    let stats = renderer.prepare(&queue, &mut view, &frame)?;
     renderer.count(&view, &mut encoder, &depth_view);
     renderer.resolve(
         &view,

@@ -48,9 +48,7 @@ impl Drawing {
         };
         let mut renderer =
             Renderer::new(&gpu.device, options).map_err(|error| error.to_string())?;
-        let mesh = gpu.allocate("the regions", || {
-            renderer.insert(&gpu.device, &gpu.queue, mesh)
-        })?;
+        let mesh = gpu.allocate("the regions", || renderer.insert(mesh))?;
         Ok(Self {
             pipelines: ground.pipelines(gpu, &targets.format),
             targets,
@@ -87,7 +85,7 @@ impl Drawing {
             .draw_ground(&mut encoder, ground, &self.pipelines, false);
         let stats = self
             .renderer
-            .prepare(&gpu.device, &gpu.queue, &mut self.view, frame)
+            .prepare(&gpu.queue, &mut self.view, frame)
             .map_err(|error| error.to_string())?;
         self.renderer
             .count(&self.view, &mut encoder, &self.targets.depth_view);
