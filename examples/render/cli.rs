@@ -27,7 +27,7 @@ pub struct Arguments {
         long,
         value_name = "LON,LAT,HEIGHT_M[,HEADING_DEG,PITCH_DEG]",
         allow_hyphen_values = true,
-        default_value = "12,27,2e7"
+        default_value = "14,26,1.15e7"
     )]
     pub camera: Viewpoint,
     /// Vertical field of view, degrees

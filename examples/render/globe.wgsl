@@ -16,7 +16,7 @@ fn ground_along(ndc: vec2f) -> Ground {
     let normal = normalize(scaled * vec3f(1.0, 1.0, view.constants.y));
     let direction = ray.direction * vec3f(1.0, 1.0, 1.0 / view.constants.y);
     var color = world_color(normal) * ground_detail(direction * distance_m, distance_m);
-    color *= 0.30 + 0.85 * smoothstep(-0.35, 1.0, dot(normal, view.sun.xyz));
+    color *= daylight(normal);
     color = through_air(color, normal, direction, distance_m);
     return Ground(vec4f(color, 1.0), select(view.picture.z, depth, is_seen));
 }

@@ -128,12 +128,18 @@ fn sample_smooth(picture: texture_2d<f32>, uv: vec2f) -> vec3f {
     return mix(mix(d, c, weight_low.x), mix(b, a, weight_low.x), weight_low.y);
 }
 
+// The picture as a background: bright deserts toned down, colours a little paler.
+fn map_tone(color: vec3f) -> vec3f {
+    let grey = dot(color, vec3f(0.21, 0.72, 0.07));
+    return mix(vec3f(grey), color, 0.85) * 1.25 / (1.0 + 0.7 * grey);
+}
+
 fn world_color(normal: vec3f) -> vec3f {
     let uv = world_uv(normal);
     if (magnified) {
-        return sample_smooth(globe_picture, uv);
+        return map_tone(sample_smooth(globe_picture, uv));
     }
-    return textureSampleLevel(globe_picture, smooth_sampler, uv, view.sun.w).rgb;
+    return map_tone(textureSampleLevel(globe_picture, smooth_sampler, uv, view.sun.w).rgb);
 }
 
 // Brightness of invented ground detail at an eye-relative place, around 1.
@@ -150,6 +156,11 @@ fn ground_detail(relative_m: vec3f, distance_m: f32) -> f32 {
         (place + view.detail_coarse.xy) / view.detail_coarse.z,
         log2(max(pixel_m / view.detail_coarse.w, 1.0))).r;
     return 1.0 + view.east.w * (0.5 * fine + coarse - 0.75);
+}
+
+// Light on the ground: dim, so that the fills stand out, and never dark.
+fn daylight(normal: vec3f) -> f32 {
+    return 0.22 + 0.66 * smoothstep(-0.35, 1.0, dot(normal, view.sun.xyz));
 }
 
 const SPACE = vec3f(0.0025, 0.0035, 0.0075);

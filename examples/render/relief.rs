@@ -5,7 +5,7 @@ use glam::{DVec3, UVec2};
 use crate::{elevation::Elevation, picture::Picture};
 
 /// Colours by height, metres and sRGB: sea floor, shelf, lowland, hills, rock, snow.
-const TINTS: [(f64, [f64; 3]); 11] = [
+const TINTS: [(f64, [f64; 3]); 12] = [
     (-11_000.0, [8.0, 22.0, 58.0]),
     (-6_000.0, [16.0, 44.0, 94.0]),
     (-3_000.0, [28.0, 70.0, 128.0]),
@@ -15,8 +15,9 @@ const TINTS: [(f64, [f64; 3]); 11] = [
     (400.0, [142.0, 158.0, 102.0]),
     (1_200.0, [182.0, 166.0, 118.0]),
     (2_500.0, [158.0, 130.0, 104.0]),
-    (4_200.0, [176.0, 166.0, 160.0]),
-    (6_000.0, [240.0, 242.0, 246.0]),
+    (4_200.0, [168.0, 150.0, 134.0]),
+    (5_400.0, [206.0, 202.0, 202.0]),
+    (6_500.0, [246.0, 248.0, 252.0]),
 ];
 
 /// Slopes look this many times steeper, or mountains would hardly show from afar.

@@ -52,6 +52,6 @@ fn terrain_pixel(surface: Surface) -> @location(0) vec4f {
         color = mix(shaded, color, max(beyond.x, beyond.y));
     }
     color *= ground_detail(relative_m, distance_m);
-    color *= 0.30 + 0.85 * smoothstep(-0.35, 1.0, dot(normal, view.sun.xyz));
+    color *= daylight(normal);
     return vec4f(through_air(color, normal, relative_m, distance_m), 1.0);
 }

@@ -28,6 +28,7 @@ impl Workplace {
     }
 
     /// Names of all files, sorted.
+    #[allow(dead_code)]
     pub fn files(&self) -> Vec<String> {
         let entries = fs::read_dir(&self.directory).expect("the temporary directory");
         let mut names: Vec<String> = entries
