@@ -1,12 +1,15 @@
 //! The command line.
 
-use std::{path::PathBuf, str::FromStr};
+use std::{
+    path::{Path, PathBuf},
+    str::FromStr,
+};
 
 use clap::{Parser, ValueEnum};
 use glam::UVec2;
 use globefill::{CountTechnique, DepthConvention, EdgeKind, Inside};
 
-use crate::camera::Viewpoint;
+use crate::{camera::Viewpoint, output::DEFAULT_DIRECTORY};
 
 /// Most pixels of a picture: what an ordinary machine can hold several targets of.
 const MOST_PIXELS: u64 = 1 << 26;
@@ -176,7 +179,7 @@ impl Arguments {
             &self.stats,
         ];
         if outputs.iter().all(|path| path.is_none()) {
-            self.out = Some(PathBuf::from("out/world.png"));
+            self.out = Some(Path::new(DEFAULT_DIRECTORY).join("world.png"));
         }
         self
     }

@@ -5,6 +5,9 @@ use std::{
     path::{Path, PathBuf},
 };
 
+/// Where the picture goes when no output is named; the only directory that is made.
+pub const DEFAULT_DIRECTORY: &str = "out";
+
 /// Finished files, held in memory until all of them are ready.
 #[derive(Default)]
 pub struct Outputs {
@@ -34,6 +37,10 @@ impl Outputs {
             let mut name = path.file_name().ok_or_else(|| not_a_file(path))?.to_owned();
             name.push(format!(".{}.part", std::process::id()));
             let temporary = path.with_file_name(name);
+            if path.parent() == Some(Path::new(DEFAULT_DIRECTORY)) {
+                fs::create_dir_all(DEFAULT_DIRECTORY)
+                    .map_err(|error| cannot_write(path, &error))?;
+            }
             staged.push(temporary.clone());
             fs::write(&temporary, content).map_err(|error| cannot_write(path, &error))?;
         }
@@ -50,6 +57,7 @@ pub fn check_writable(path: &Path) -> Result<(), String> {
         return Err(not_a_file(path));
     }
     match path.parent() {
+        Some(parent) if parent == Path::new(DEFAULT_DIRECTORY) => Ok(()),
         Some(parent) if !parent.as_os_str().is_empty() && !parent.is_dir() => Err(format!(
             "{}: there is no directory {}",
             path.display(),

@@ -14,7 +14,7 @@ const COLORS: [[u8; 3]; 8] = [
     [196, 204, 96],
 ];
 
-const OPACITY: f32 = 0.6;
+const OPACITY: f32 = 0.5;
 
 /// A colour for every fill, linear RGB and alpha: no two fills that share a border have the same,
 /// unless one has eight neighbours of eight colours.

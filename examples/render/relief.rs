@@ -72,6 +72,6 @@ fn hillshade(elevation: &Elevation, column: u32, row: u32) -> f64 {
     // Steepness is compressed: a grid's steepest slopes would else be black or white.
     let steep = |rise: f64| (EXAGGERATION * rise * 4.0).tanh() * 0.9;
     let normal = DVec3::new(-steep(rise_east), -steep(rise_north), 1.0).normalize();
-    let sun = DVec3::new(-0.5, 0.5, 0.7071).normalize();
+    let sun = DVec3::new(-1.0, 1.0, 1.4).normalize();
     0.35 + 0.65 * (normal.dot(sun) / sun.z).max(0.0)
 }

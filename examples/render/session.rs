@@ -1,6 +1,6 @@
 //! One run of the program: from the arguments to the finished files.
 
-use std::{fs, path::PathBuf, time::Instant};
+use std::{path::PathBuf, time::Instant};
 
 use globefill::{Ellipsoid, FillMesh, FillStyle, Frame, MeshOptions, wgpu};
 use serde_json::json;
@@ -84,10 +84,6 @@ fn output_paths(arguments: &Arguments) -> Result<Vec<PathBuf>, String> {
     ];
     let paths: Vec<PathBuf> = named.into_iter().flatten().cloned().collect();
     for path in &paths {
-        if path.starts_with("out") {
-            // The default output's own directory is made; any other must be there.
-            let _ = fs::create_dir("out");
-        }
         output::check_writable(path)?;
     }
     Ok(paths)
