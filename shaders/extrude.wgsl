@@ -26,16 +26,24 @@ const BOTTOM: u32 = 0u;
 const TOP: u32 = 1u;
 const AS_IS: u32 = 2u;
 
-// In `arc_of`: a slot between two arcs, which holds no vertex.
-const BREAK: u32 = 0xffffffffu;
+// A boundary arc. Its slots hold its vertices; one more, the break, separates it from the next.
+struct Arc {
+    // Pieces on either side, plus one; 0 for none.
+    left: u32,
+    right: u32,
+    // The slot behind its last vertex: the break.
+    break_slot: u32,
+}
+
+// Boundary slots that share an entry of `arc_at`.
+const BLOCK: u32 = 16u;
 
 @group(0) @binding(0) var<uniform> frame: Frame;
 // Fixed point: xyz in 1/128 m, w three 10-bit fractions of 2^-17 m (x lowest).
 @group(1) @binding(0) var<storage, read> vertices: array<vec4<i32>>;
-// The arc of each boundary slot.
-@group(1) @binding(1) var<storage, read> arc_of: array<u32>;
-// Left and right piece of each arc, plus one; 0 for none.
-@group(1) @binding(2) var<storage, read> arcs: array<vec2<u32>>;
+// The arc of the first slot of every block of boundary slots.
+@group(1) @binding(1) var<storage, read> arc_at: array<u32>;
+@group(1) @binding(2) var<storage, read> arcs: array<Arc>;
 // Winding code of each piece, plus one, in this view and layer; four digits of 8 bits.
 @group(1) @binding(3) var<storage, read> codes: array<u32>;
 
@@ -77,8 +85,16 @@ fn digits_of(code: u32) -> vec4<f32> {
 }
 
 fn arc_weight(arc: u32) -> vec4<f32> {
-    let sides = arcs[arc];
-    return code_digits(sides.x) - code_digits(sides.y);
+    return code_digits(arcs[arc].left) - code_digits(arcs[arc].right);
+}
+
+// The arc whose slots, or break, hold `slot`.
+fn arc_of(slot: u32) -> u32 {
+    var arc = arc_at[slot / BLOCK];
+    while arcs[arc].break_slot < slot {
+        arc += 1u;
+    }
+    return arc;
 }
 
 struct Face {
@@ -99,6 +115,7 @@ fn vs_cap(@builtin(vertex_index) vertex: u32, @builtin(instance_index) instance:
 }
 
 struct WallCorner {
+    arc: u32,
     slot: u32,
     drawn: u32,
 }
@@ -108,13 +125,14 @@ struct WallCorner {
 fn wall_corner(k: u32) -> WallCorner {
     let slot = k >> 1u;
     let top = (k & 1u) == 0u;
-    if arc_of[slot] != BREAK {
-        return WallCorner(slot, select(BOTTOM, TOP, top));
+    let arc = arc_of(slot);
+    if slot != arcs[arc].break_slot {
+        return WallCorner(arc, slot, select(BOTTOM, TOP, top));
     }
     if top {
-        return WallCorner(slot - 1u, BOTTOM);
+        return WallCorner(arc, slot - 1u, BOTTOM);
     }
-    return WallCorner(slot + 1u, TOP);
+    return WallCorner(arc, slot + 1u, TOP);
 }
 
 // Degenerate wall inputs, as a triangle strip over boundary slots.
@@ -123,7 +141,7 @@ fn vs_wall(@builtin(vertex_index) k: u32) -> Face {
     let corner = wall_corner(k);
     var face: Face;
     face.position = clip(vertices[corner.slot], corner.drawn);
-    face.weight = arc_weight(arc_of[corner.slot]);
+    face.weight = arc_weight(corner.arc);
     return face;
 }
 

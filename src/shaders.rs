@@ -49,7 +49,7 @@ pub fn all() -> Vec<(&'static str, String)> {
 mod tests {
     use std::mem::{offset_of, size_of};
 
-    use crate::{layer_tables::LayerHead, view::FrameUniform};
+    use crate::{gpu_mesh::ArcRecord, layer_tables::LayerHead, view::FrameUniform};
 
     /// Members of a WGSL struct with their offsets, bytes, and the size of the whole.
     fn layout_of(source: &str, name: &str) -> (Vec<(String, usize)>, usize) {
@@ -89,6 +89,13 @@ mod tests {
         );
         assert_eq!(members, expected);
         assert_eq!(size, size_of::<FrameUniform>());
+    }
+
+    #[test]
+    fn the_arc_record_has_the_layout_of_the_shader() {
+        let (members, size) = layout_of(&super::count(), "Arc");
+        assert_eq!(members, offsets!(ArcRecord: left, right, break_slot));
+        assert_eq!(size, size_of::<ArcRecord>());
     }
 
     #[test]

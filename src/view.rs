@@ -153,7 +153,7 @@ impl LayerView {
 }
 
 fn mesh_group(to: &Upload<'_>, vertices: &wgpu::Buffer, codes: &wgpu::Buffer) -> wgpu::BindGroup {
-    let buffers = [vertices, &to.mesh.arc_of, &to.mesh.arcs, codes];
+    let buffers = [vertices, &to.mesh.arc_at, &to.mesh.arcs, codes];
     let entries: Vec<_> = (0..)
         .zip(buffers)
         .map(|(binding, buffer)| wgpu::BindGroupEntry {
