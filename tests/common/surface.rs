@@ -1,6 +1,6 @@
 //! What the host draws: the bare ellipsoid or analytic terrain, ray-cast in f64.
 
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, UVec2};
 use rayon::prelude::*;
 
 use super::{
@@ -116,6 +116,53 @@ pub fn sample_positions(samples: u32) -> &'static [DVec2] {
     }
 }
 
+/// Where the rays of a picture meet a surface.
+pub struct Cast {
+    figure: Figure,
+    pose: Pose,
+    size_px: UVec2,
+    terrain: Terrain,
+    /// Sample after sample, row after row: direction, and distance along the view axis.
+    rays: Vec<(DVec3, Option<f64>)>,
+}
+
+impl Cast {
+    pub fn new(
+        figure: &Figure,
+        pose: &Pose,
+        size_px: UVec2,
+        samples: u32,
+        terrain: Terrain,
+    ) -> Self {
+        let any_range = DepthRange::ReversedInfinite { near_m: 1.0 };
+        let lens = Lens::new(figure, pose, size_px, any_range);
+        let directions: Vec<DVec3> = sample_positions(samples)
+            .iter()
+            .flat_map(|&offset| {
+                (0..size_px.y).flat_map(move |y| {
+                    (0..size_px.x)
+                        .map(move |x| lens.ray(DVec2::new(f64::from(x), f64::from(y)) + offset))
+                })
+            })
+            .collect();
+        let rays: Vec<(DVec3, Option<f64>)> = directions
+            .into_par_iter()
+            .map(|ray| (ray, terrain.hit(figure, lens.eye_m, ray)))
+            .collect();
+        assert!(
+            rays.iter().any(|(_, hit)| hit.is_some()),
+            "{pose:?} sees nothing but sky"
+        );
+        Self {
+            figure: *figure,
+            pose: *pose,
+            size_px,
+            terrain,
+            rays,
+        }
+    }
+}
+
 /// The host's depth buffer, and the surface points that it holds.
 pub struct Surface {
     pub lens: Lens,
@@ -137,33 +184,10 @@ pub enum DepthKind {
 }
 
 impl Surface {
-    pub fn new(
-        figure: &Figure,
-        pose: &Pose,
-        size_px: glam::UVec2,
-        samples: u32,
-        terrain: Terrain,
-        kind: DepthKind,
-    ) -> Self {
-        let any_range = DepthRange::ReversedInfinite { near_m: 1.0 };
-        let lens = Lens::new(figure, pose, size_px, any_range);
-        let rays: Vec<DVec3> = sample_positions(samples)
-            .iter()
-            .flat_map(|&offset| {
-                (0..size_px.y).flat_map(move |y| {
-                    (0..size_px.x)
-                        .map(move |x| lens.ray(DVec2::new(f64::from(x), f64::from(y)) + offset))
-                })
-            })
-            .collect();
-        let hits: Vec<Option<f64>> = rays
-            .par_iter()
-            .map(|&ray| terrain.hit(figure, lens.eye_m, ray))
-            .collect();
-        let seen = hits.iter().flatten();
-        let nearest_m = seen.clone().fold(f64::INFINITY, |a: f64, &b| a.min(b));
-        let farthest_m = seen.fold(0.0, |a: f64, &b| a.max(b));
-        assert!(farthest_m > 0.0, "{pose:?} sees nothing but sky");
+    pub fn new(cast: &Cast, kind: DepthKind) -> Self {
+        let seen = cast.rays.iter().filter_map(|(_, hit)| *hit);
+        let nearest_m = seen.clone().fold(f64::INFINITY, f64::min);
+        let farthest_m = seen.fold(0.0, f64::max);
         let range = match kind {
             DepthKind::Reversed => DepthRange::ReversedInfinite {
                 near_m: (0.1 * nearest_m).clamp(0.01, 1.0),
@@ -173,36 +197,35 @@ impl Surface {
                 far_m: 2.0 * farthest_m,
             },
         };
-        let lens = Lens::new(figure, pose, size_px, range);
-        let depths: Vec<f32> = hits
+        let lens = Lens::new(&cast.figure, &cast.pose, cast.size_px, range);
+        let depths: Vec<f32> = cast
+            .rays
             .iter()
-            .map(|hit| hit.map_or(range.cleared(), |t| lens.stored_depth(t)))
+            .map(|(_, hit)| hit.map_or(range.cleared(), |t| lens.stored_depth(t)))
             .collect();
-        let points_m = hits
+        let points_m = cast
+            .rays
             .iter()
-            .zip(&rays)
             .zip(&depths)
-            .map(|((hit, ray), &depth)| {
+            .map(|(&(ray, hit), &depth)| {
                 // Over terrain the surface is what the buffer holds, over the bare ellipsoid the hit.
-                let exact_m = (*hit)?;
-                let t = if terrain == Terrain::Bare {
-                    exact_m
-                } else {
-                    lens.distance_m(depth)
+                let t = match cast.terrain {
+                    Terrain::Bare => hit?,
+                    _ => hit.map(|_| lens.distance_m(depth))?,
                 };
-                Some(lens.eye_m + *ray * t)
+                Some(lens.eye_m + ray * t)
             })
             .collect();
         Self {
             lens,
             range,
-            terrain,
+            terrain: cast.terrain,
             depths,
             points_m,
         }
     }
 
-    pub fn size_px(&self) -> glam::UVec2 {
+    pub fn size_px(&self) -> UVec2 {
         self.lens.size_px
     }
 
