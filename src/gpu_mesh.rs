@@ -7,8 +7,7 @@ use crate::{fill_mesh::FillMesh, fixed_point::encode, select::slot};
 /// In `arc_of`: a slot between two arcs; the same in extrude.wgsl.
 const BREAK: u32 = u32::MAX;
 
-/// Buffers of one mesh. Sizes in bytes: 16 a vertex and arc, 4 a boundary vertex and arc, 12 a cap
-/// triangle, 8 an arc.
+/// Buffers of one mesh.
 pub(crate) struct GpuMesh {
     /// Boundary slots, arc after arc with a break behind each, then the caps' interior vertices.
     pub vertices: wgpu::Buffer,
@@ -61,13 +60,15 @@ impl GpuMesh {
             ),
         }
     }
+}
 
-    /// Bytes on the GPU.
-    pub(crate) fn size_bytes(&self) -> u64 {
-        [&self.vertices, &self.arc_of, &self.arcs, &self.cap_indices]
-            .map(wgpu::Buffer::size)
-            .iter()
-            .sum()
+impl FillMesh {
+    /// Bytes that the mesh takes on the GPU: 16 a vertex, 4 more for its arc if on the boundary, 12 a
+    /// cap triangle; 28 an arc, for its sides and the break behind it. Walls take none.
+    pub fn gpu_bytes(&self) -> u64 {
+        let slots = self.boundary.len() + self.arcs.len();
+        let vertices = self.vertices.len() + self.arcs.len();
+        (16 * vertices + 4 * slots + 8 * self.arcs.len() + 12 * self.cap_triangles.len()) as u64
     }
 }
 

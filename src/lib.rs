@@ -2,15 +2,20 @@
 
 mod code;
 mod count;
+#[cfg(feature = "countries")]
+pub mod countries;
 pub mod curve;
 pub mod ellipsoid;
 pub mod error;
 pub mod fill_mesh;
 mod fixed_point;
 pub mod frame_stats;
+#[cfg(feature = "geojson")]
+pub mod geo_json;
 pub mod geodetic;
 mod gpu_mesh;
 mod isometric;
+mod layer_tables;
 mod layers;
 pub mod options;
 mod pipelines;

@@ -2,8 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use wgpu::util::DeviceExt as _;
-
 use crate::{
     code::Mantissa,
     count::{self, Drawn, Recorder},
@@ -11,9 +9,10 @@ use crate::{
     fill_mesh::FillMesh,
     frame_stats::FrameStats,
     gpu_mesh::GpuMesh,
-    layers::{Layer, Layering, Styled},
+    layer_tables::{LayerTables, require},
+    layers::Styled,
     options::{CountTechnique, FillStyle, Frame, RendererOptions},
-    pipelines::{Input, Key, Pipelines, Planes},
+    pipelines::{Input, Key, Pipelines},
     select::Selection,
     sight::Sight,
     targets::{Targets, TargetsKey},
@@ -40,21 +39,13 @@ pub struct Renderer {
     /// Grows with every change of meshes and styles.
     revision: u64,
     /// Layers of the current meshes and styles, once asked for.
-    layering: Option<Result<Resolved, RendererError>>,
+    layers: Option<Result<LayerTables, RendererError>>,
 }
 
 struct Resident {
     mesh: FillMesh,
     styles: Vec<FillStyle>,
     gpu: GpuMesh,
-}
-
-/// Layers with the tables that resolve reads.
-struct Resolved {
-    layering: Layering,
-    mantissa: Mantissa,
-    tables: Vec<wgpu::Buffer>,
-    table_bytes: u64,
 }
 
 impl Renderer {
@@ -102,7 +93,7 @@ impl Renderer {
             meshes: BTreeMap::new(),
             next_id: 0,
             revision: 0,
-            layering: None,
+            layers: None,
         })
     }
 
@@ -165,7 +156,7 @@ impl Renderer {
 
     fn changed(&mut self) {
         self.revision += 1;
-        self.layering = None;
+        self.layers = None;
     }
 
     /// Selects what to draw and uploads what changed. Call it for every view and frame, before
@@ -188,12 +179,12 @@ impl Renderer {
             return Ok(prepared.stats);
         }
         let (table_bytes, selections) = self.layers_and_selections(frame)?;
-        let resolved = self.resolved()?;
+        let layers = self.layers()?;
         let sight = selections.first().map(|selected| &selected.sight);
         let mut prepared = Prepared {
             frame: *frame,
             revision: self.revision,
-            technique: resolved.layering.technique,
+            technique: layers.layering.technique,
             mirrored: sight.is_some_and(|sight| sight.mirrored),
             unclipped: sight.is_some_and(|sight| sight.far_plane),
             stats: FrameStats::default(),
@@ -265,7 +256,7 @@ impl Renderer {
         frame: &Frame,
     ) -> Result<(u64, Vec<Selected>), RendererError> {
         let mut bytes = 0;
-        if self.layering.is_none() {
+        if self.layers.is_none() {
             bytes += self.assign_layers(self.options.count);
         }
         let selections = self.select(frame)?;
@@ -286,65 +277,31 @@ impl Renderer {
                 styles: &resident.styles,
             })
             .collect();
-        let layering = Layering::assign(&styled, technique, self.mantissa).and_then(|layering| {
-            if layering.technique == CountTechnique::Stencil {
-                require(
-                    self.device.features(),
-                    wgpu::Features::DEPTH32FLOAT_STENCIL8,
-                )?;
-            }
-            Ok(self.with_tables(layering, &styled))
-        });
-        let bytes = layering.as_ref().map_or(0, |resolved| resolved.table_bytes);
-        self.layering = Some(layering);
+        let tables = LayerTables::new(&self.device, &styled, technique, self.mantissa);
+        let bytes = tables.as_ref().map_or(0, |tables| tables.bytes);
+        self.layers = Some(tables);
         bytes
     }
 
     /// Whether the sums of this frame, refined walls included, are proven exact.
     fn has_head_room(&self, selections: &[Selected]) -> Result<bool, RendererError> {
-        let resolved = self.resolved()?;
-        if resolved.layering.technique == CountTechnique::Stencil {
-            return Ok(true);
-        }
-        let refined: u64 = selections
+        let refined = selections
             .iter()
             .map(|selected| selected.selection.patch.indices.len() as u64 / 3)
             .sum();
-        Ok(resolved.layering.layers.iter().all(|layer| {
-            layer
-                .code
-                .leaves_room(layer.largest_sum, refined, resolved.mantissa)
-        }))
+        Ok(self.layers()?.leave_room_for(refined))
     }
 
-    fn with_tables(&self, layering: Layering, styled: &[Styled<'_>]) -> Resolved {
-        let tables: Vec<wgpu::Buffer> = layering
-            .layers
-            .iter()
-            .map(|layer| layer_table(&self.device, layer, styled))
-            .collect();
-        Resolved {
-            // Where the stencil counts, nothing is summed and 32-bit targets need no blending.
-            mantissa: match layering.technique {
-                CountTechnique::Winding => self.mantissa,
-                CountTechnique::Stencil => Mantissa::Single,
-            },
-            layering,
-            table_bytes: tables.iter().map(wgpu::Buffer::size).sum(),
-            tables,
-        }
-    }
-
-    fn resolved(&self) -> Result<&Resolved, RendererError> {
-        match &self.layering {
-            Some(Ok(resolved)) => Ok(resolved),
+    fn layers(&self) -> Result<&LayerTables, RendererError> {
+        match &self.layers {
+            Some(Ok(layers)) => Ok(layers),
             Some(Err(error)) => Err(error.clone()),
             None => Err(RendererError::NoSuchMesh),
         }
     }
 
     fn select(&self, frame: &Frame) -> Result<Vec<Selected>, RendererError> {
-        let layering = &self.resolved()?.layering;
+        let layering = &self.layers()?.layering;
         let layer_count = layering.layers.len();
         self.meshes
             .iter()
@@ -362,11 +319,11 @@ impl Renderer {
     }
 
     fn ensure_targets(&self, view: &mut View, frame: &Frame) -> Result<(), RendererError> {
-        let resolved = self.resolved()?;
+        let layers = self.layers()?;
         let key = TargetsKey {
             size_px: frame.size_px,
-            planes: resolved.planes(),
-            stencil: resolved.layering.technique == CountTechnique::Stencil,
+            planes: layers.planes(),
+            stencil: layers.layering.technique == CountTechnique::Stencil,
             layer_revision: self.revision,
         };
         if view
@@ -375,13 +332,7 @@ impl Renderer {
             .is_none_or(|targets| targets.key != key)
         {
             let samples = self.options.sample_count;
-            let targets = Targets::new(
-                &self.device,
-                &self.pipelines,
-                samples,
-                &resolved.tables,
-                key,
-            );
+            let targets = Targets::new(&self.device, &self.pipelines, samples, &layers.tables, key);
             view.targets = Some(targets);
         }
         Ok(())
@@ -392,7 +343,7 @@ impl Renderer {
         prepared: &Prepared,
         selections: &[Selected],
     ) -> Result<(), RendererError> {
-        let planes = self.resolved()?.planes();
+        let planes = self.layers()?.planes();
         let draws = |index: usize| {
             let layer = move |selected: &Selected| selected.selection.layers[index].clone();
             selections.iter().map(layer)
@@ -455,7 +406,7 @@ impl Renderer {
         stats.technique = prepared.technique;
         for (id, resident) in &self.meshes {
             stats.fills += resident.mesh.fills.len() as u32;
-            stats.gpu_bytes += resident.gpu.size_bytes();
+            stats.gpu_bytes += resident.mesh.gpu_bytes();
             let Some(mesh_view) = view.meshes.get_mut(id) else {
                 continue;
             };
@@ -492,52 +443,4 @@ struct Selected {
     id: MeshId,
     sight: Sight,
     selection: Selection,
-}
-
-impl Resolved {
-    fn planes(&self) -> Vec<Planes> {
-        self.layering
-            .layers
-            .iter()
-            .map(|layer| Planes::new(layer.code.planes, self.mantissa))
-            .collect()
-    }
-}
-
-/// The head of `Layer` in resolve.wgsl; premultiplied colours follow.
-#[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
-#[repr(C)]
-pub(crate) struct LayerHead {
-    pub fills: u32,
-    pub base: u32,
-    pub digits: u32,
-    pub planes: u32,
-}
-
-fn layer_table(device: &wgpu::Device, layer: &Layer, styled: &[Styled<'_>]) -> wgpu::Buffer {
-    let head = LayerHead {
-        fills: layer.code.fills,
-        base: layer.code.base,
-        digits: layer.code.digits,
-        planes: layer.code.planes,
-    };
-    let mut bytes = bytemuck::bytes_of(&head).to_vec();
-    for fill in &layer.fills {
-        let [red, green, blue, alpha] = styled[fill.mesh].styles[fill.fill as usize].color;
-        let premultiplied = [red * alpha, green * alpha, blue * alpha, alpha];
-        bytes.extend_from_slice(bytemuck::bytes_of(&premultiplied));
-    }
-    device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-        label: Some("globefill layer"),
-        contents: &bytes,
-        usage: wgpu::BufferUsages::STORAGE,
-    })
-}
-
-fn require(features: wgpu::Features, needed: wgpu::Features) -> Result<(), RendererError> {
-    if features.contains(needed) {
-        Ok(())
-    } else {
-        Err(RendererError::MissingFeature(needed))
-    }
 }

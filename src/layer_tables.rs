@@ -1,0 +1,112 @@
+//! Layers on the GPU: the tables by which sums become colours.
+
+use wgpu::util::DeviceExt as _;
+
+use crate::{
+    code::Mantissa,
+    error::RendererError,
+    layers::{Layer, Layering, Styled},
+    options::CountTechnique,
+    pipelines::Planes,
+};
+
+/// The layers of everything visible, with the table of each that resolve reads.
+pub(crate) struct LayerTables {
+    pub layering: Layering,
+    pub tables: Vec<wgpu::Buffer>,
+    /// Bytes uploaded for the tables.
+    pub bytes: u64,
+    mantissa: Mantissa,
+}
+
+impl LayerTables {
+    /// Assigns layers and uploads their tables; `mantissa` is that of targets that can be summed in.
+    pub(crate) fn new(
+        device: &wgpu::Device,
+        styled: &[Styled<'_>],
+        technique: CountTechnique,
+        mantissa: Mantissa,
+    ) -> Result<Self, RendererError> {
+        let layering = Layering::assign(styled, technique, mantissa)?;
+        // Where the stencil counts, nothing is summed and 32-bit targets need no blending.
+        let mantissa = match layering.technique {
+            CountTechnique::Winding => mantissa,
+            CountTechnique::Stencil => {
+                require(device.features(), wgpu::Features::DEPTH32FLOAT_STENCIL8)?;
+                Mantissa::Single
+            }
+        };
+        let tables: Vec<wgpu::Buffer> = layering
+            .layers
+            .iter()
+            .map(|layer| table(device, layer, styled))
+            .collect();
+        Ok(Self {
+            bytes: tables.iter().map(wgpu::Buffer::size).sum(),
+            layering,
+            tables,
+            mantissa,
+        })
+    }
+
+    /// Planes of each layer.
+    pub(crate) fn planes(&self) -> Vec<Planes> {
+        self.layering
+            .layers
+            .iter()
+            .map(|layer| Planes::new(layer.code.planes, self.mantissa))
+            .collect()
+    }
+
+    /// Whether sums stay exact with `extra` triangles beside the stored ones.
+    pub(crate) fn leave_room_for(&self, extra: u64) -> bool {
+        self.layering.technique == CountTechnique::Stencil
+            || self.layering.layers.iter().all(|layer| {
+                layer
+                    .code
+                    .leaves_room(layer.largest_sum, extra, self.mantissa)
+            })
+    }
+}
+
+/// The head of `Layer` in resolve.wgsl; premultiplied colours follow.
+#[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
+#[repr(C)]
+pub(crate) struct LayerHead {
+    pub fills: u32,
+    pub base: u32,
+    pub digits: u32,
+    pub planes: u32,
+}
+
+fn table(device: &wgpu::Device, layer: &Layer, styled: &[Styled<'_>]) -> wgpu::Buffer {
+    let head = LayerHead {
+        fills: layer.code.fills,
+        base: layer.code.base,
+        digits: layer.code.digits,
+        planes: layer.code.planes,
+    };
+    let mut bytes = bytemuck::bytes_of(&head).to_vec();
+    for fill in &layer.fills {
+        let [red, green, blue, alpha] = styled[fill.mesh].styles[fill.fill as usize].color;
+        let premultiplied = [red * alpha, green * alpha, blue * alpha, alpha];
+        bytes.extend_from_slice(bytemuck::bytes_of(&premultiplied));
+    }
+    device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+        label: Some("globefill layer"),
+        contents: &bytes,
+        usage: wgpu::BufferUsages::STORAGE,
+    })
+}
+
+/// Fails unless the device has what is needed.
+pub(crate) fn require(
+    features: wgpu::Features,
+    needed: wgpu::Features,
+) -> Result<(), RendererError> {
+    if features.contains(needed) {
+        Ok(())
+    } else {
+        Err(RendererError::MissingFeature(needed))
+    }
+}
