@@ -79,6 +79,17 @@ impl Curve {
     /// Costs nothing for `Straight` edges, two microseconds for geodesics (the inverse problem is
     /// solved here, once).
     pub fn on(&self, ellipsoid: &Ellipsoid) -> CurveOn {
+        let [start, end] = [self.from, self.to].map(|end| ellipsoid.ecef(end.canonical(), 0.0));
+        self.on_between(ellipsoid, start, end)
+    }
+
+    /// [`Self::on`] for who knows the positions of the ends already.
+    pub(crate) fn on_between(
+        &self,
+        ellipsoid: &Ellipsoid,
+        start_ecef_m: DVec3,
+        end_ecef_m: DVec3,
+    ) -> CurveOn {
         let follows_grid = self.turn_deg == 0.0 || self.from.lat_deg == self.to.lat_deg;
         let course = match self.kind {
             EdgeKind::Geodesic => Course::Geodesic(GeodesicCourse::new(ellipsoid, self)),
@@ -91,8 +102,8 @@ impl Curve {
         CurveOn {
             curve: *self,
             ellipsoid: *ellipsoid,
-            start_ecef_m: ellipsoid.ecef(self.from.canonical(), 0.0),
-            end_ecef_m: ellipsoid.ecef(self.to.canonical(), 0.0),
+            start_ecef_m,
+            end_ecef_m,
             course,
         }
     }
@@ -186,6 +197,11 @@ impl CurveOn {
         &self.curve
     }
 
+    /// The ellipsoid it lies on.
+    pub fn ellipsoid(&self) -> &Ellipsoid {
+        &self.ellipsoid
+    }
+
     /// Longitude and latitude at parameter `t`, 0 … 1; the longitude continues that of `from`, so
     /// it may lie outside ±180°. Geodesics are within 15 nm of the truth (Karney, C. F. F.:
     /// Algorithms for geodesics, J. Geod. 87, 2013).
@@ -270,13 +286,10 @@ impl CurveOn {
         let quartic_m = 0.25 * first.abs().max(middle.abs()).max(last.abs());
         let remainder_m = self.fifth_derivative(share) * (0.003_55 / 120.0);
 
-        let (a_m, b_m) = (self.ellipsoid.a_m, self.ellipsoid.b_m);
-        let least_radius_m = a_m.min(b_m).powi(2) / a_m.max(b_m);
-        // 1.3 covers chords of up to 90°, whose sag grows faster than the square.
-        let sag_m = 1.3 * chord.length_squared() / (8.0 * least_radius_m);
+        let sag_m = self.ellipsoid.chord_sag_m(chord.length());
         let twist_m = 0.5 * (end_normal - start_normal).dot(across).abs() * sag_m;
         // Rounding of positions, amplified by the extrapolation to the ends.
-        let rounding_m = 1e-14 * a_m;
+        let rounding_m = 1e-14 * self.ellipsoid.a_m;
         let tilt = start_normal
             .dot(across)
             .abs()

@@ -30,6 +30,13 @@ pub enum RegionError {
         /// The vertex where the edge starts.
         place: Place,
     },
+    /// So many edges lie on top of each other that finding their crossings would take unbounded
+    /// time and memory.
+    #[error("the boundaries are a tangle: too many of their {edges} edges lie across each other")]
+    Tangled {
+        /// Number of edges of all regions.
+        edges: usize,
+    },
 }
 
 /// Why a renderer could not be made or a frame not prepared.

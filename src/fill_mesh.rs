@@ -2,7 +2,29 @@
 
 use glam::DVec3;
 
-use crate::{curve::Curve, ellipsoid::Ellipsoid, repair::Repair};
+use crate::{
+    curve::Curve, ellipsoid::Ellipsoid, error::RegionError, mesh_build, region::Region,
+    repair::Repair,
+};
+
+/// How regions are meshed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MeshOptions {
+    /// The ellipsoid that longitudes and latitudes refer to.
+    pub ellipsoid: Ellipsoid,
+    /// How far, metres, a stored boundary chord may lie beside the true edge. The renderer refines
+    /// edges near the eye far below this; smaller values only cost memory.
+    pub tolerance_m: f64,
+}
+
+impl Default for MeshOptions {
+    fn default() -> Self {
+        Self {
+            ellipsoid: Ellipsoid::WGS84,
+            tolerance_m: 5.0,
+        }
+    }
+}
 
 /// Regions ready for upload: everything the GPU draws from, and nothing that knows the GPU.
 ///
@@ -102,5 +124,28 @@ impl Bounds {
     /// Whether the caps have a point in common; may answer yes for caps that just miss.
     pub(crate) fn intersects(&self, other: &Self) -> bool {
         self.axis.angle_between(other.axis) <= self.radius_rad + other.radius_rad + 1e-7
+    }
+}
+
+impl FillMesh {
+    /// Meshes regions: one fill each, every polygon a piece, common borders stored once.
+    ///
+    /// Vertices are rounded to multiples of 2⁻³⁶° (1.6 µm on Earth), by which neighbours that print
+    /// a vertex differently in the last digits find each other. Defects are repaired and listed in
+    /// [`repairs`](Self::repairs):
+    /// - equal neighbouring vertices become one; open rings are closed;
+    /// - a vertex that lies exactly on a straight edge splits it;
+    /// - a polygon that crosses itself is split at the crossings and filled by the even-odd rule,
+    ///   so edges that it walks twice vanish (the seams along ±180° and the poles that close
+    ///   Antarctica on a flat map);
+    /// - holes outside their shell, or inside another hole, remove nothing and are dropped.
+    ///
+    /// A polygon whose edges all cancel covers the whole globe if it was written round more than
+    /// half of the lon/lat plane (the box from −180° to 180° and −90° to 90°), else nothing.
+    ///
+    /// # Errors
+    /// The first vertex, ring or edge that means nothing on a globe, by its place in the input.
+    pub fn build(regions: &[Region], options: &MeshOptions) -> Result<Self, RegionError> {
+        mesh_build::build(regions, options)
     }
 }

@@ -1,0 +1,246 @@
+//! Nodes and edges of all rings, each stored once.
+
+use std::collections::hash_map::Entry;
+
+use rustc_hash::FxHashMap;
+
+use crate::{
+    curve::Curve,
+    geodetic::LonLat,
+    lattice::{LatticePoint, steps, wrap},
+    region::EdgeKind,
+};
+
+/// The vertices and edges of all regions, each stored once, whoever uses them.
+#[derive(Debug, Default)]
+pub(crate) struct BoundaryGraph {
+    /// Where the nodes are: canonical names.
+    pub(crate) nodes: Vec<LatticePoint>,
+    /// Undirected edges, walked from `from` to `to` with `from < to`.
+    pub(crate) edges: Vec<Edge>,
+    node_of_point: FxHashMap<LatticePoint, u32>,
+    edge_of_key: FxHashMap<Edge, u32>,
+}
+
+/// An edge between two different nodes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct Edge {
+    pub(crate) from: u32,
+    pub(crate) to: u32,
+    /// Where it starts and, unwrapped, ends on the lon/lat plane. At a pole the longitude is the
+    /// meridian that the edge arrives on, which the node does not know.
+    pub(crate) start: LatticePoint,
+    pub(crate) end: LatticePoint,
+    pub(crate) kind: EdgeKind,
+}
+
+impl Edge {
+    pub(crate) fn reversed(self) -> Self {
+        let turn = wrap(self.end.lon) - self.end.lon;
+        Self {
+            from: self.to,
+            to: self.from,
+            start: LatticePoint::new(self.end.lon + turn, self.end.lat),
+            end: LatticePoint::new(self.start.lon + turn, self.start.lat),
+            kind: self.kind,
+        }
+    }
+
+    /// Signed difference in longitude, lattice steps.
+    pub(crate) fn turn(&self) -> i64 {
+        self.end.lon - self.start.lon
+    }
+
+    pub(crate) fn curve(&self) -> Curve {
+        let mut from = self.start.lon_lat();
+        let mut to = LatticePoint::new(wrap(self.end.lon), self.end.lat).lon_lat();
+        if self.kind == EdgeKind::Geodesic {
+            (from, to) = (from.canonical(), to.canonical());
+        }
+        Curve {
+            kind: self.kind,
+            from,
+            to,
+            turn_deg: LatticePoint::new(self.turn(), 0).lon_lat().lon_deg,
+        }
+    }
+}
+
+/// An edge of a [`BoundaryGraph`] with the direction in which it is walked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct DirectedEdge(u32);
+
+impl DirectedEdge {
+    pub(crate) fn new(edge: u32, forward: bool) -> Self {
+        Self(edge << 1 | u32::from(!forward))
+    }
+
+    pub(crate) fn edge(self) -> u32 {
+        self.0 >> 1
+    }
+
+    /// A number for tables over directed edges: below twice the number of edges.
+    pub(crate) fn index(self) -> usize {
+        self.0 as usize
+    }
+
+    pub(crate) fn is_forward(self) -> bool {
+        self.0 & 1 == 0
+    }
+
+    pub(crate) fn reversed(self) -> Self {
+        Self(self.0 ^ 1)
+    }
+}
+
+impl BoundaryGraph {
+    pub(crate) fn with_capacity(vertices: usize) -> Self {
+        Self {
+            nodes: Vec::with_capacity(vertices),
+            edges: Vec::with_capacity(vertices),
+            node_of_point: FxHashMap::with_capacity_and_hasher(vertices, Default::default()),
+            edge_of_key: FxHashMap::with_capacity_and_hasher(vertices, Default::default()),
+        }
+    }
+
+    /// The node at a point, made if it is new.
+    pub(crate) fn node(&mut self, point: LatticePoint) -> u32 {
+        let point = point.canonical();
+        match self.node_of_point.entry(point) {
+            Entry::Occupied(found) => *found.get(),
+            Entry::Vacant(vacant) => {
+                let id = self.nodes.len() as u32;
+                self.nodes.push(point);
+                *vacant.insert(id)
+            }
+        }
+    }
+
+    /// The edge along a curve between lattice points; none if it has no length.
+    pub(crate) fn insert_curve(&mut self, curve: &Curve) -> Option<DirectedEdge> {
+        let start = LatticePoint::nearest(curve.from);
+        let mut end = LatticePoint::nearest(curve.to);
+        // Curves to a pole without a turn of their own get their meridian in `insert`.
+        if curve.kind == EdgeKind::Straight || !(start.is_pole() || end.is_pole()) {
+            end.lon = start.lon + steps(curve.turn_deg);
+        }
+        self.insert(curve.kind, start, end)
+    }
+
+    /// The edge from `start` to `end`, unwrapped points of the lon/lat plane; none if it has no length.
+    pub(crate) fn insert(
+        &mut self,
+        kind: EdgeKind,
+        mut start: LatticePoint,
+        mut end: LatticePoint,
+    ) -> Option<DirectedEdge> {
+        let (from, to) = (self.node(start), self.node(end));
+        if from == to {
+            return None;
+        }
+        if kind != EdgeKind::Straight {
+            // Geodesics and rhumbs reach a pole on the meridian of their other end.
+            if start.is_pole() {
+                start.lon = end.lon;
+            } else if end.is_pole() {
+                end.lon = start.lon;
+            }
+        }
+        let turn = wrap(start.lon) - start.lon;
+        let start = LatticePoint::new(start.lon + turn, start.lat);
+        let end = LatticePoint::new(end.lon + turn, end.lat);
+        let directed = Edge {
+            from,
+            to,
+            start,
+            end,
+            kind,
+        };
+        let forward = from < to;
+        let edge = if forward {
+            directed
+        } else {
+            directed.reversed()
+        };
+        let next = self.edges.len() as u32;
+        let id = *self.edge_of_key.entry(edge).or_insert(next);
+        if id == next {
+            self.edges.push(edge);
+        }
+        Some(DirectedEdge::new(id, forward))
+    }
+
+    /// The edge as it is walked.
+    pub(crate) fn walk(&self, directed: DirectedEdge) -> Edge {
+        let edge = self.edges[directed.edge() as usize];
+        if directed.is_forward() {
+            edge
+        } else {
+            edge.reversed()
+        }
+    }
+
+    pub(crate) fn start_node(&self, directed: DirectedEdge) -> u32 {
+        let edge = &self.edges[directed.edge() as usize];
+        if directed.is_forward() {
+            edge.from
+        } else {
+            edge.to
+        }
+    }
+
+    pub(crate) fn end_node(&self, directed: DirectedEdge) -> u32 {
+        self.start_node(directed.reversed())
+    }
+
+    pub(crate) fn position(&self, node: u32) -> LonLat {
+        self.nodes[node as usize].lon_lat()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn insert(graph: &mut BoundaryGraph, a: (f64, f64), b: (f64, f64)) -> DirectedEdge {
+        let [a, b] = [a, b].map(|(lon, lat)| LonLat::new(lon, lat));
+        graph
+            .insert_curve(&Curve::between(EdgeKind::Straight, a, b))
+            .unwrap()
+    }
+
+    #[test]
+    fn neighbours_find_their_common_edge() {
+        let mut graph = BoundaryGraph::default();
+        for (a, b) in [
+            ((1.0, 2.0), (3.0, 4.0)),
+            ((180.0, 10.0), (-170.0, 20.0)),
+            ((-180.0, 10.0), (190.0, 20.0)),
+            ((170.0, 1.0), (180.0, 1.0)),
+            ((0.0, 1.0), (180.0, 1.0)),
+            ((50.0, 90.0), (40.0, 80.0)),
+        ] {
+            let there = insert(&mut graph, a, b);
+            let back = insert(&mut graph, b, a);
+            assert_eq!(there, back.reversed());
+            assert_eq!(graph.walk(there), graph.walk(back).reversed());
+            assert_eq!(
+                graph.walk(there).curve().reversed(),
+                graph.walk(back).curve()
+            );
+        }
+        assert_eq!(graph.edges.len(), 5);
+        // Half a turn east is another edge than half a turn west.
+        let west = graph.insert_curve(&Curve::between(
+            EdgeKind::Straight,
+            LonLat::new(180.0, 1.0),
+            LonLat::new(0.0, 1.0),
+        ));
+        let east = graph.insert_curve(&Curve::between(
+            EdgeKind::Straight,
+            LonLat::new(-180.0, 1.0),
+            LonLat::new(0.0, 1.0),
+        ));
+        assert_ne!(west.unwrap().edge(), east.unwrap().edge());
+    }
+}

@@ -1,0 +1,176 @@
+//! The order of edges round a node.
+
+use std::cmp::Ordering;
+
+use glam::DVec3;
+
+use crate::{
+    boundary_graph::{BoundaryGraph, DirectedEdge},
+    ellipsoid::Ellipsoid,
+    region::EdgeKind,
+};
+
+/// Headings nearer than this, radians, are not told apart where curved edges leave a node.
+const UNCLEAR_RAD: f64 = 1e-6;
+
+/// Sorts edges that start at one node counter-clockwise, seen from outside the ellipsoid. Answers
+/// whether their order is certain.
+pub(crate) fn sort_counter_clockwise(
+    ellipsoid: &Ellipsoid,
+    graph: &BoundaryGraph,
+    edges: &mut [DirectedEdge],
+) -> bool {
+    let Some(&first) = edges.first() else {
+        return true;
+    };
+    let at_pole = graph.nodes[graph.start_node(first) as usize].is_pole();
+    let straight = edges
+        .iter()
+        .all(|&edge| graph.walk(edge).kind == EdgeKind::Straight);
+    if straight && !at_pole {
+        edges.sort_by(|&a, &b| compare_on_plane(graph, a, b));
+        // Noding leaves no two different straight edges that start the same way.
+        return true;
+    }
+    let heading = |edge| {
+        if at_pole {
+            polar_heading(graph, edge)
+        } else {
+            curved_heading(ellipsoid, graph, edge)
+        }
+    };
+    let mut sorted: Vec<_> = edges.iter().map(|&edge| (heading(edge), edge)).collect();
+    sorted.sort_by(|a, b| a.0.0.total_cmp(&b.0.0).then(a.0.1.total_cmp(&b.0.1)));
+    for (place, (_, edge)) in edges.iter_mut().zip(&sorted) {
+        *place = *edge;
+    }
+    let close = |a: &((f64, f64), DirectedEdge), b: &((f64, f64), DirectedEdge)| {
+        let tied = ((b.0.0 - a.0.0).abs()) < UNCLEAR_RAD;
+        tied && !(at_pole && straight && b.0.1 != a.0.1)
+    };
+    let ring_closes = sorted.len() > 2 && {
+        let (low, high) = (sorted[0].0.0, sorted[sorted.len() - 1].0.0);
+        low + std::f64::consts::TAU - high < UNCLEAR_RAD
+    };
+    !ring_closes && !sorted.windows(2).any(|pair| close(&pair[0], &pair[1]))
+}
+
+/// Straight edges by their direction on the lon/lat plane, exactly, from east.
+fn compare_on_plane(graph: &BoundaryGraph, a: DirectedEdge, b: DirectedEdge) -> Ordering {
+    let direction = |edge| {
+        let edge = graph.walk(edge);
+        (edge.turn(), edge.end.lat - edge.start.lat)
+    };
+    let (a, b) = (direction(a), direction(b));
+    let lower_half = |(x, y): (i64, i64)| y < 0 || y == 0 && x < 0;
+    let cross = i128::from(a.0) * i128::from(b.1) - i128::from(a.1) * i128::from(b.0);
+    lower_half(a).cmp(&lower_half(b)).then(0.cmp(&cross))
+}
+
+/// At a pole: the meridian, then, between straight edges of one meridian, how they bend off it.
+fn polar_heading(graph: &BoundaryGraph, edge: DirectedEdge) -> (f64, f64) {
+    let edge = graph.walk(edge);
+    let meridian = edge.start.lon_lat().lon_deg.to_radians();
+    let bend = edge.turn() as f64 / (edge.end.lat - edge.start.lat).abs() as f64;
+    // From below, east is clockwise.
+    if edge.start.lat > 0 {
+        (meridian, bend)
+    } else {
+        (-meridian, -bend)
+    }
+}
+
+/// Elsewhere: the direction of the curve's first metre.
+fn curved_heading(ellipsoid: &Ellipsoid, graph: &BoundaryGraph, edge: DirectedEdge) -> (f64, f64) {
+    let position = graph.position(graph.start_node(edge));
+    let curve = graph.walk(edge).curve().on(ellipsoid);
+    let start = curve.ecef(0.0);
+    let length_m = start.distance(curve.ecef(1.0)).max(1e-9 * ellipsoid.a_m);
+    let step = curve.ecef((1.0 / length_m).min(1.0)) - start;
+    let (sin, cos) = position.lon_deg.to_radians().sin_cos();
+    let east = DVec3::new(-sin, cos, 0.0);
+    let north = ellipsoid.normal(position).cross(east);
+    (step.dot(north).atan2(step.dot(east)), 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{curve::Curve, geodetic::LonLat};
+
+    #[test]
+    fn order_is_counter_clockwise_for_all_kinds_and_at_the_poles() {
+        let star = |kind, center: LonLat, tips: &[(f64, f64)]| {
+            let mut graph = BoundaryGraph::default();
+            let mut edges: Vec<_> = tips
+                .iter()
+                .map(|&(lon, lat)| {
+                    let curve = Curve::between(
+                        kind,
+                        LonLat::new(
+                            if center.is_pole() {
+                                lon
+                            } else {
+                                center.lon_deg
+                            },
+                            center.lat_deg,
+                        ),
+                        LonLat::new(lon, lat),
+                    );
+                    graph.insert_curve(&curve).unwrap()
+                })
+                .collect();
+            let expected = edges.clone();
+            edges.reverse();
+            edges.swap(0, 1);
+            assert!(sort_counter_clockwise(
+                &Ellipsoid::WGS84,
+                &graph,
+                &mut edges
+            ));
+            let first = edges.iter().position(|&edge| edge == expected[0]).unwrap();
+            edges.rotate_left(first);
+            assert_eq!(edges, expected);
+        };
+        for kind in [EdgeKind::Straight, EdgeKind::Rhumb, EdgeKind::Geodesic] {
+            let tips = [
+                (181.0, 10.0),
+                (180.0, 12.0),
+                (178.0, 10.5),
+                (179.0, 9.0),
+                (182.0, 3.0),
+            ];
+            star(kind, LonLat::new(180.0, 10.0), &tips);
+            star(
+                kind,
+                LonLat::new(0.0, 90.0),
+                &[(-170.0, 80.0), (-3.0, 70.0), (60.0, 80.0), (180.0, 1.0)],
+            );
+            star(
+                kind,
+                LonLat::new(0.0, -90.0),
+                &[(-170.0, -80.0), (180.0, -1.0), (60.0, -80.0), (-3.0, -70.0)],
+            );
+        }
+    }
+
+    #[test]
+    fn curved_ties_are_uncertain() {
+        let mut graph = BoundaryGraph::default();
+        let from = LonLat::new(0.0, 0.0);
+        let mut edges = [(10.0, 0.0), (20.0, 0.0), (0.0, 5.0)].map(|(lon, lat)| {
+            graph
+                .insert_curve(&Curve::between(
+                    EdgeKind::Geodesic,
+                    from,
+                    LonLat::new(lon, lat),
+                ))
+                .unwrap()
+        });
+        assert!(!sort_counter_clockwise(
+            &Ellipsoid::WGS84,
+            &graph,
+            &mut edges
+        ));
+    }
+}

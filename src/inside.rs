@@ -1,0 +1,155 @@
+//! Which side of a polygon's boundary is inside.
+
+use crate::{
+    authalic::{Authalic, Enclosed},
+    boundary_graph::{BoundaryGraph, DirectedEdge},
+    ellipsoid::Ellipsoid,
+    lattice::LatticePoint,
+    meridian_index::MeridianIndex,
+    region::Inside,
+    simple_loops::Component,
+};
+
+/// A polygon's boundary with the inside to the left of every loop.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Boundary {
+    /// Closed loops, none of which visits a node twice.
+    pub(crate) loops: Vec<Vec<DirectedEdge>>,
+    /// What they enclose together.
+    pub(crate) enclosed: Enclosed,
+}
+
+/// A component, and what lies to its left.
+struct Side {
+    component: Component,
+    enclosed: Enclosed,
+}
+
+impl Side {
+    fn reverse(&mut self) {
+        self.component.reverse();
+        self.enclosed = self.enclosed.reversed();
+    }
+}
+
+/// Directs a polygon's components by the inside rule.
+///
+/// The shell's largest component is directed by `inside`. Other parts of the shell follow the
+/// even-odd rule. Of a hole, the side away from the shell is removed; a hole outside the shell, or
+/// within another hole, removes nothing and is dropped. With no shell left, holes are cut out of
+/// the whole globe, their smaller side each.
+pub(crate) fn direct(
+    ellipsoid: &Ellipsoid,
+    graph: &BoundaryGraph,
+    authalic: &Authalic,
+    components: Vec<Component>,
+    inside: Inside,
+) -> Boundary {
+    let mut sides: Vec<Side> = components
+        .into_iter()
+        .map(|component| {
+            let edges: Vec<_> = component.edges().collect();
+            Side {
+                enclosed: authalic.enclosed(graph, &edges),
+                component,
+            }
+        })
+        .collect();
+    let half_m2 = 0.5 * authalic.globe_m2();
+    let main = (0..sides.len())
+        .filter(|&index| sides[index].component.from_shell)
+        .max_by_key(|&index| sides[index].component.edges().count());
+    let Some(main) = main else {
+        for side in &mut sides {
+            if authalic.left_m2(side.enclosed) < half_m2 {
+                side.reverse();
+            }
+        }
+        return gather(sides.into_iter());
+    };
+    if inside == Inside::Smaller && authalic.left_m2(sides[main].enclosed) > half_m2 {
+        sides[main].reverse();
+    }
+    if sides.len() == 1 {
+        return gather(sides.into_iter());
+    }
+    let kept = direct_others(ellipsoid, graph, &mut sides, main);
+    gather(
+        sides
+            .into_iter()
+            .zip(kept)
+            .filter(|(_, kept)| *kept)
+            .map(|(side, _)| side),
+    )
+}
+
+fn gather(sides: impl Iterator<Item = Side>) -> Boundary {
+    let mut boundary = Boundary::default();
+    for side in sides {
+        boundary.enclosed = boundary.enclosed.plus(side.enclosed);
+        boundary.loops.extend(side.component.loops);
+    }
+    boundary
+}
+
+/// Directs all components but the main one; answers which of them bound anything.
+fn direct_others(
+    ellipsoid: &Ellipsoid,
+    graph: &BoundaryGraph,
+    sides: &mut [Side],
+    main: usize,
+) -> Vec<bool> {
+    let labelled = sides
+        .iter()
+        .enumerate()
+        .flat_map(|(label, side)| side.component.edges().map(move |edge| (edge, label as u32)));
+    let index = MeridianIndex::new(ellipsoid, graph, labelled);
+    // Per component those that separate a point of it from the north pole.
+    let separating: Vec<Vec<u32>> = sides
+        .iter()
+        .map(|side| index.separating(point_on(graph, side.component.edges()), |_| {}))
+        .collect();
+    let separates =
+        |other: usize, from: usize| separating[from].binary_search(&(other as u32)).is_ok();
+    let mut kept = vec![true; sides.len()];
+    for own in (0..sides.len()).filter(|&own| own != main) {
+        let main_has_own = sides[main].enclosed.has_north_pole() != separates(main, own);
+        let mut hole_between = false;
+        let mut facing_inside = main_has_own;
+        // Only components on one of the two meridians can lie between.
+        for &between in separating[own].iter().chain(&separating[main]) {
+            let between = between as usize;
+            if between == own
+                || between == main
+                || separates(between, own) == separates(between, main)
+            {
+                continue;
+            }
+            if sides[between].component.from_shell {
+                facing_inside = !facing_inside;
+            } else {
+                hole_between = true;
+            }
+        }
+        if !sides[own].component.from_shell && (hole_between || !facing_inside) {
+            kept[own] = false;
+            continue;
+        }
+        let left_has_main = sides[own].enclosed.has_north_pole() != separates(own, main);
+        if left_has_main != facing_inside {
+            sides[own].reverse();
+        }
+    }
+    kept
+}
+
+/// A node of closed edges that is not a pole.
+pub(crate) fn point_on(
+    graph: &BoundaryGraph,
+    edges: impl Iterator<Item = DirectedEdge>,
+) -> LatticePoint {
+    edges
+        .map(|edge| graph.nodes[graph.start_node(edge) as usize])
+        .find(|point| !point.is_pole())
+        .unwrap_or_default()
+}

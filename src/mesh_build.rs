@@ -1,0 +1,472 @@
+//! The CPU pipeline: regions → rings → nodes → loops → arcs → vertices → triangles.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use crate::{
+    arcs::{Chain, EdgeSides, chains},
+    authalic::Authalic,
+    boundary_graph::BoundaryGraph,
+    densify::{DenseChain, densify},
+    ellipsoid::Ellipsoid,
+    error::RegionError,
+    fill_mesh::{Arc, BoundaryVertex, Bounds, Fill, FillMesh, MeshOptions, Piece},
+    geodetic::LonLat,
+    inside::{Boundary, direct},
+    noding::{PolygonPairs, PolygonWalk, node_boundaries},
+    overlaps::overlaps,
+    region::{EdgeKind, Polygon, Region},
+    repair::{Place, Repair},
+    rings::walk_ring,
+    simple_loops::{Component, even_odd_components},
+    triangulate::{Caps, triangulate},
+};
+
+/// Runs the whole pipeline.
+pub(crate) fn build(regions: &[Region], options: &MeshOptions) -> Result<FillMesh, RegionError> {
+    let ellipsoid = options.ellipsoid;
+    let mut mesh = FillMesh {
+        ellipsoid,
+        ..FillMesh::default()
+    };
+    let mut graph = BoundaryGraph::with_capacity(count_vertices(regions));
+    let mut polygons = walk_polygons(regions, &ellipsoid, &mut graph, &mut mesh.repairs)?;
+    let crossing = node_boundaries(&ellipsoid, &mut graph, &mut polygons, &mut mesh.repairs)?;
+    let boundaries = bound_polygons(regions, &ellipsoid, &graph, &polygons, &mut mesh.repairs);
+    mesh.repairs.sort_by_key(|repair| {
+        let Place {
+            region,
+            polygon,
+            ring,
+            vertex,
+        } = repair.place;
+        (region, polygon, ring, vertex)
+    });
+
+    let piece_of_polygon = mesh.add_pieces(regions.len(), &polygons, &boundaries);
+    let pieces: Vec<Boundary> = boundaries.into_iter().flatten().collect();
+    let sides = EdgeSides::new(&graph, &pieces);
+    let crossing = crossing_pieces(crossing, &piece_of_polygon);
+    mesh.overlaps = overlaps(&ellipsoid, &graph, &sides, &pieces, crossing);
+
+    let chains = chains(&graph, &sides, &pieces);
+    let vertex_runs = mesh.add_arcs(&graph, &chains, options.tolerance_m);
+    mesh.add_caps(&graph, &pieces, &vertex_runs);
+    Ok(mesh)
+}
+
+fn count_vertices(regions: &[Region]) -> usize {
+    let polygons = regions.iter().flat_map(|region| &region.polygons);
+    polygons
+        .flat_map(rings_of)
+        .map(|(_, ring)| ring.len())
+        .sum()
+}
+
+/// Shell and holes, numbered.
+fn rings_of(polygon: &Polygon) -> impl Iterator<Item = (usize, &[LonLat])> {
+    let holes = polygon.holes.iter().map(Vec::as_slice);
+    std::iter::once(polygon.shell.as_slice())
+        .chain(holes)
+        .enumerate()
+}
+
+fn walk_polygons(
+    regions: &[Region],
+    ellipsoid: &Ellipsoid,
+    graph: &mut BoundaryGraph,
+    repairs: &mut Vec<Repair>,
+) -> Result<Vec<PolygonWalk>, RegionError> {
+    let mut walks = Vec::new();
+    for (region_index, region) in regions.iter().enumerate() {
+        for (polygon_index, polygon) in region.polygons.iter().enumerate() {
+            let place = Place {
+                region: region_index,
+                polygon: polygon_index,
+                ..Place::default()
+            };
+            let mut walk = PolygonWalk {
+                place,
+                rings: Vec::with_capacity(1 + polygon.holes.len()),
+            };
+            for (ring_index, ring) in rings_of(polygon) {
+                let place = Place {
+                    ring: ring_index,
+                    ..place
+                };
+                walk.rings.push(walk_ring(
+                    ring,
+                    region.edges,
+                    ellipsoid,
+                    place,
+                    graph,
+                    repairs,
+                )?);
+            }
+            walks.push(walk);
+        }
+    }
+    Ok(walks)
+}
+
+/// The boundary of every polygon, inside to the left; none for polygons without inside.
+fn bound_polygons(
+    regions: &[Region],
+    ellipsoid: &Ellipsoid,
+    graph: &BoundaryGraph,
+    polygons: &[PolygonWalk],
+    repairs: &mut Vec<Repair>,
+) -> Vec<Option<Boundary>> {
+    let authalic = Authalic::new(*ellipsoid);
+    let is_simple = simple_polygons(graph, polygons);
+    let bounded: Vec<(Option<Boundary>, Vec<Repair>)> = polygons
+        .par_iter()
+        .zip(is_simple)
+        .map(|(walk, is_simple)| {
+            let region = &regions[walk.place.region];
+            let mut repairs = Vec::new();
+            let components = if is_simple {
+                rings_as_components(walk)
+            } else {
+                even_odd_components(ellipsoid, graph, walk, &mut repairs)
+            };
+            let shell_is_left = components.iter().any(|component| component.from_shell);
+            let shell = &region.polygons[walk.place.polygon].shell;
+            let is_globe =
+                !shell_is_left && region.edges == EdgeKind::Straight && spans_globe(shell);
+            let boundary = (shell_is_left || is_globe)
+                .then(|| direct(ellipsoid, graph, &authalic, components, region.inside));
+            (boundary, repairs)
+        })
+        .collect();
+    bounded
+        .into_iter()
+        .map(|(boundary, found)| {
+            repairs.extend(found);
+            boundary
+        })
+        .collect()
+}
+
+/// Which polygons visit no node and walk no edge twice: nearly all, and they need no decomposition.
+fn simple_polygons(graph: &BoundaryGraph, polygons: &[PolygonWalk]) -> Vec<bool> {
+    let mut last_visit = vec![u32::MAX; graph.nodes.len()];
+    polygons
+        .iter()
+        .enumerate()
+        .map(|(polygon, walk)| {
+            let mut edges = walk.rings.iter().flat_map(|ring| &ring.edges);
+            let visit = polygon as u32;
+            walk.rings.iter().all(|ring| ring.edges.len() > 1)
+                && edges.all(|&edge| {
+                    let node = graph.start_node(edge) as usize;
+                    std::mem::replace(&mut last_visit[node], visit) != visit
+                })
+        })
+        .collect()
+}
+
+fn rings_as_components(walk: &PolygonWalk) -> Vec<Component> {
+    let component = |(index, ring): (usize, &crate::rings::RingWalk)| Component {
+        loops: vec![ring.edges.clone()],
+        from_shell: index == 0,
+    };
+    walk.rings.iter().enumerate().map(component).collect()
+}
+
+/// Whether a ring whose edges cancel was written round more than half of the lon/lat plane: such is
+/// the box from −180° to 180° and −90° to 90°, whose sides coincide on the globe.
+fn spans_globe(ring: &[LonLat]) -> bool {
+    let mut area = 0.0;
+    for (index, a) in ring.iter().enumerate() {
+        let b = ring[(index + 1) % ring.len()];
+        let mean_sin = 0.5 * (a.lat_deg.to_radians().sin() + b.lat_deg.to_radians().sin());
+        area += (b.lon_deg - a.lon_deg).to_radians() * mean_sin;
+    }
+    area.abs() > std::f64::consts::TAU
+}
+
+fn crossing_pieces(
+    crossing: PolygonPairs,
+    piece_of_polygon: &[Option<u32>],
+) -> impl Iterator<Item = (u32, u32)> {
+    crossing.into_iter().filter_map(|(a, b)| {
+        let [a, b] = [a, b].map(|polygon| piece_of_polygon[polygon as usize]);
+        a.zip(b)
+    })
+}
+
+/// Where the vertices of the graph's nodes and edges are in the mesh.
+struct VertexRuns {
+    /// Per node one of its vertices.
+    node: Vec<u32>,
+    /// Per edge its first and its last vertex, from its smaller node to its greater.
+    edge: Vec<(u32, u32)>,
+}
+
+impl FillMesh {
+    /// Adds fills and pieces; answers the piece of each polygon.
+    fn add_pieces(
+        &mut self,
+        fill_count: usize,
+        polygons: &[PolygonWalk],
+        boundaries: &[Option<Boundary>],
+    ) -> Vec<Option<u32>> {
+        self.fills = vec![Fill::default(); fill_count];
+        let mut piece_of_polygon = Vec::with_capacity(polygons.len());
+        for (walk, boundary) in polygons.iter().zip(boundaries) {
+            piece_of_polygon.push(boundary.as_ref().map(|_| self.pieces.len() as u32));
+            if boundary.is_some() {
+                let fill = walk.place.region as u32;
+                self.pieces.push(Piece {
+                    fill,
+                    ..Piece::default()
+                });
+                self.fills[walk.place.region].piece_count += 1;
+            }
+        }
+        let mut first_piece = 0;
+        for fill in &mut self.fills {
+            fill.first_piece = first_piece;
+            first_piece += fill.piece_count;
+        }
+        piece_of_polygon
+    }
+
+    /// Adds arcs with their vertices and curves.
+    fn add_arcs(
+        &mut self,
+        graph: &BoundaryGraph,
+        chains: &[Chain],
+        tolerance_m: f64,
+    ) -> VertexRuns {
+        let ellipsoid = self.ellipsoid;
+        let node_ecef_m: Vec<DVec3> = graph
+            .nodes
+            .par_iter()
+            .with_min_len(256)
+            .map(|point| ellipsoid.ecef(point.lon_lat(), 0.0))
+            .collect();
+        let dense: Vec<DenseChain> = chains
+            .par_iter()
+            .map(|chain| match chain.is_copy {
+                false => densify(&ellipsoid, graph, &node_ecef_m, chain, tolerance_m),
+                true => DenseChain::default(),
+            })
+            .collect();
+        let mut runs = VertexRuns {
+            node: vec![u32::MAX; graph.nodes.len()],
+            edge: vec![(u32::MAX, u32::MAX); graph.edges.len()],
+        };
+        for (chain, dense) in chains
+            .iter()
+            .zip(&dense)
+            .filter(|(chain, _)| !chain.is_copy)
+        {
+            runs.add(graph, chain, dense, self.vertices.len() as u32);
+            self.add_arc(chain, dense);
+        }
+        for chain in chains.iter().filter(|chain| chain.is_copy) {
+            let copy = self.copy_of(graph, chain, &runs);
+            self.add_arc(chain, &copy);
+        }
+        runs
+    }
+
+    fn add_arc(&mut self, chain: &Chain, dense: &DenseChain) {
+        let first_curve = self.curves.len() as u32;
+        self.sag_m = self
+            .sag_m
+            .max(self.ellipsoid.chord_sag_m(dense.longest_chord_m));
+        self.arcs.push(Arc {
+            first_vertex: self.vertices.len() as u32,
+            vertex_count: dense.vertices.len() as u32,
+            left: Some(chain.left),
+            right: chain.right,
+            bounds: Bounds::around(
+                &self.ellipsoid,
+                dense.vertices.iter().copied(),
+                edge_margin_m(&self.ellipsoid, dense),
+            ),
+        });
+        self.vertices.extend_from_slice(&dense.vertices);
+        self.curves.extend_from_slice(&dense.curves);
+        self.boundary
+            .extend(dense.boundary.iter().map(|vertex| BoundaryVertex {
+                curve: first_curve + vertex.curve,
+                ..*vertex
+            }));
+    }
+
+    /// A chain's vertices from the arcs that run along the same edges already: bit for bit the same
+    /// positions, in this chain's order.
+    fn copy_of(&self, graph: &BoundaryGraph, chain: &Chain, runs: &VertexRuns) -> DenseChain {
+        let mut copy = DenseChain::default();
+        for &edge in &chain.edges {
+            copy.edge_starts.push(copy.vertices.len() as u32);
+            let curve_index = copy.curves.len() as u32;
+            let curve = graph.walk(edge).curve();
+            copy.curves.push(curve);
+            let run: Vec<u32> = runs.along(edge).collect();
+            for pair in run.windows(2) {
+                let [index, next] = [pair[0] as usize, pair[1] as usize];
+                let (t, deviation_m) = if index < next {
+                    (self.boundary[index].t, self.boundary[index].deviation_m)
+                } else {
+                    // The vertex after an edge's last one is the next edge's first, at its t = 0.
+                    let own = self.boundary[next].curve == self.boundary[index].curve;
+                    let t = if own {
+                        1.0 - self.boundary[index].t
+                    } else {
+                        0.0
+                    };
+                    (t, self.boundary[next].deviation_m)
+                };
+                let [start, end] = [index, next].map(|vertex| self.vertices[vertex]);
+                copy.vertices.push(start);
+                copy.boundary.push(BoundaryVertex {
+                    curve: curve_index,
+                    deviation_m,
+                    t,
+                });
+                copy.longest_chord_m = copy.longest_chord_m.max(start.distance(end));
+            }
+            if Some(&edge) == chain.edges.last()
+                && let Some(&last) = run.last()
+            {
+                copy.vertices.push(self.vertices[last as usize]);
+                copy.boundary.push(BoundaryVertex {
+                    curve: curve_index,
+                    deviation_m: 0.0,
+                    t: 1.0,
+                });
+            }
+        }
+        copy
+    }
+
+    /// Adds the triangles of every piece and its interior vertices.
+    fn add_caps(&mut self, graph: &BoundaryGraph, pieces: &[Boundary], runs: &VertexRuns) {
+        let ellipsoid = self.ellipsoid;
+        let boundary_vertices = &self.vertices[..];
+        let margin_m = self.arcs_margin_m();
+        let caps: Vec<(Caps, Bounds)> = pieces
+            .par_iter()
+            .map(|piece| {
+                let loops: Vec<Vec<u32>> = piece
+                    .loops
+                    .iter()
+                    .map(|edges| runs.loop_vertices(graph, edges))
+                    .collect();
+                let caps = triangulate(ellipsoid, boundary_vertices, &loops);
+                let bounds = if loops.is_empty() {
+                    Bounds::globe()
+                } else {
+                    let rim = loops
+                        .iter()
+                        .flatten()
+                        .map(|&vertex| boundary_vertices[vertex as usize]);
+                    let all = rim.chain(caps.interior.iter().copied());
+                    Bounds::around(&ellipsoid, all, margin_m)
+                };
+                (caps, bounds)
+            })
+            .collect();
+        let boundary_count = self.vertices.len() as u32;
+        for (piece, (caps, bounds)) in self.pieces.iter_mut().zip(caps) {
+            piece.bounds = bounds;
+            piece.first_triangle = self.cap_triangles.len() as u32;
+            piece.triangle_count = caps.triangles.len() as u32;
+            self.sag_m = self.sag_m.max(caps.sag_m);
+            let shift = self.vertices.len() as u32 - boundary_count;
+            let place = |vertex: u32| {
+                if vertex < boundary_count {
+                    vertex
+                } else {
+                    vertex + shift
+                }
+            };
+            self.cap_triangles
+                .extend(caps.triangles.iter().map(|corners| corners.map(place)));
+            self.vertices.extend(caps.interior);
+        }
+    }
+
+    /// How far the true edges may lie beside the great arcs of the scaled sphere between vertices.
+    fn arcs_margin_m(&self) -> f64 {
+        let deviation_m = self
+            .boundary
+            .iter()
+            .map(|vertex| vertex.deviation_m)
+            .fold(0.0, f32::max);
+        f64::from(deviation_m) + skew_m(&self.ellipsoid, self.sag_m)
+    }
+}
+
+fn edge_margin_m(ellipsoid: &Ellipsoid, dense: &DenseChain) -> f64 {
+    let deviation_m = dense
+        .boundary
+        .iter()
+        .map(|vertex| vertex.deviation_m)
+        .fold(0.0, f32::max);
+    f64::from(deviation_m) + skew_m(ellipsoid, ellipsoid.chord_sag_m(dense.longest_chord_m))
+}
+
+/// How far a wall along geodetic normals and one through the centre part, over the height `sag_m`
+/// from the chord to the surface: their directions differ by the flattening at most, taken twice.
+fn skew_m(ellipsoid: &Ellipsoid, sag_m: f64) -> f64 {
+    2.0 * ellipsoid.flattening().abs() * sag_m
+}
+
+impl VertexRuns {
+    fn add(&mut self, graph: &BoundaryGraph, chain: &Chain, dense: &DenseChain, first_vertex: u32) {
+        let end = dense.vertices.len() as u32 - 1;
+        let starts = dense
+            .edge_starts
+            .iter()
+            .copied()
+            .chain([end])
+            .map(|start| first_vertex + start);
+        let starts: Vec<u32> = starts.collect();
+        for (&edge, run) in chain.edges.iter().zip(starts.windows(2)) {
+            self.node[graph.start_node(edge) as usize] = run[0];
+            self.node[graph.end_node(edge) as usize] = run[1];
+            self.edge[edge.edge() as usize] = if edge.is_forward() {
+                (run[0], run[1])
+            } else {
+                (run[1], run[0])
+            };
+        }
+    }
+
+    /// The vertices of an edge as it is walked.
+    fn along(
+        &self,
+        edge: crate::boundary_graph::DirectedEdge,
+    ) -> impl Iterator<Item = u32> + use<> {
+        let (from, to) = self.edge[edge.edge() as usize];
+        let (from, to) = if edge.is_forward() {
+            (from, to)
+        } else {
+            (to, from)
+        };
+        let step = move |k: u32| if from <= to { from + k } else { from - k };
+        (0..=from.abs_diff(to)).map(step)
+    }
+
+    /// The vertices of a loop, one for each position.
+    fn loop_vertices(
+        &self,
+        graph: &BoundaryGraph,
+        edges: &[crate::boundary_graph::DirectedEdge],
+    ) -> Vec<u32> {
+        let mut vertices = Vec::with_capacity(edges.len());
+        for &edge in edges {
+            let (from, to) = self.edge[edge.edge() as usize];
+            vertices.push(self.node[graph.start_node(edge) as usize]);
+            let inner = from.abs_diff(to) as usize - 1;
+            vertices.extend(self.along(edge).skip(1).take(inner));
+        }
+        vertices
+    }
+}

@@ -1,0 +1,275 @@
+//! Noding: edges that meet inside get a common node there, or are listed as overlapping.
+
+use rustc_hash::{FxHashMap, FxHashSet};
+
+use crate::{
+    boundary_graph::{BoundaryGraph, DirectedEdge, Edge},
+    edge_grid::{EdgeGrid, LatticeBox},
+    ellipsoid::Ellipsoid,
+    error::RegionError,
+    lattice::LatticePoint,
+    meeting::{Meeting, meetings},
+    repair::{Place, Repair, RepairKind},
+    rings::RingWalk,
+};
+
+/// A polygon of the input as walks on the boundary graph: the shell, then the holes.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct PolygonWalk {
+    /// Region and polygon it came from.
+    pub(crate) place: Place,
+    pub(crate) rings: Vec<RingWalk>,
+}
+
+/// Splitting moves edges by half a lattice step, which can make new crossings a step away; each
+/// round finds those of the round before. Real data needs two.
+const MAX_ROUNDS: usize = 8;
+
+/// Pairs of polygons (smaller first) whose boundaries cross.
+pub(crate) type PolygonPairs = FxHashSet<(u32, u32)>;
+
+/// Splits edges where vertices lie on them and where a polygon crosses itself; answers which
+/// polygons cross each other.
+pub(crate) fn node_boundaries(
+    ellipsoid: &Ellipsoid,
+    graph: &mut BoundaryGraph,
+    polygons: &mut [PolygonWalk],
+    repairs: &mut Vec<Repair>,
+) -> Result<PolygonPairs, RegionError> {
+    let mut crossing = PolygonPairs::default();
+    let mut first_fresh = 0;
+    for _ in 0..MAX_ROUNDS {
+        let users = EdgeUsers::new(graph.edges.len(), polygons);
+        let found =
+            find_meetings(ellipsoid, graph, &users, first_fresh).ok_or(RegionError::Tangled {
+                edges: graph.edges.len(),
+            })?;
+        let mut splits = Splits::default();
+        for (first, second, meeting) in found {
+            match meeting {
+                Meeting::NodeOnFirst(node) => splits.add(first, graph.nodes[node as usize]),
+                Meeting::NodeOnSecond(node) => splits.add(second, graph.nodes[node as usize]),
+                Meeting::Crossing(point) => {
+                    if let Some(polygon) = users.common(first, second) {
+                        let place = polygons[polygon as usize].place_of(first);
+                        repairs.push(Repair {
+                            place,
+                            kind: RepairKind::Crossing,
+                        });
+                        splits.add(first, point);
+                        splits.add(second, point);
+                    }
+                    users.add_pairs(first, second, &mut crossing);
+                }
+                Meeting::Unclear => users.add_pairs(first, second, &mut crossing),
+            }
+        }
+        if splits.points.is_empty() {
+            break;
+        }
+        first_fresh = graph.edges.len();
+        splits.apply(graph, polygons, &users);
+    }
+    Ok(crossing)
+}
+
+impl PolygonWalk {
+    /// Where in the input an edge of this polygon starts.
+    fn place_of(&self, edge: u32) -> Place {
+        for (ring, walk) in self.rings.iter().enumerate() {
+            if let Some(index) = walk.edges.iter().position(|used| used.edge() == edge) {
+                let vertex = walk.vertices[index] as usize;
+                return Place {
+                    ring,
+                    vertex,
+                    ..self.place
+                };
+            }
+        }
+        self.place
+    }
+}
+
+/// Which polygons walk each edge.
+struct EdgeUsers {
+    /// Per edge the end of its run in `polygons`.
+    ends: Vec<u32>,
+    polygons: Vec<u32>,
+}
+
+impl EdgeUsers {
+    fn new(edge_count: usize, walks: &[PolygonWalk]) -> Self {
+        let uses = || {
+            walks.iter().enumerate().flat_map(|(polygon, walk)| {
+                let edges = walk.rings.iter().flat_map(|ring| &ring.edges);
+                edges.map(move |edge| (edge.edge() as usize, polygon as u32))
+            })
+        };
+        let mut ends = vec![0_u32; edge_count];
+        uses().for_each(|(edge, _)| ends[edge] += 1);
+        let mut total = 0;
+        for end in &mut ends {
+            total += *end;
+            *end = total - *end;
+        }
+        let mut polygons = vec![0_u32; total as usize];
+        uses().for_each(|(edge, polygon)| {
+            polygons[ends[edge] as usize] = polygon;
+            ends[edge] += 1;
+        });
+        Self { ends, polygons }
+    }
+
+    fn of(&self, edge: u32) -> &[u32] {
+        let edge = edge as usize;
+        let first = if edge == 0 { 0 } else { self.ends[edge - 1] };
+        &self.polygons[first as usize..self.ends[edge] as usize]
+    }
+
+    /// A polygon that walks both edges.
+    fn common(&self, first: u32, second: u32) -> Option<u32> {
+        self.of(first)
+            .iter()
+            .copied()
+            .find(|polygon| self.of(second).contains(polygon))
+    }
+
+    fn add_pairs(&self, first: u32, second: u32, pairs: &mut PolygonPairs) {
+        for &a in self.of(first) {
+            for &b in self.of(second) {
+                if a != b {
+                    pairs.insert((a.min(b), a.max(b)));
+                }
+            }
+        }
+    }
+}
+
+type Found = (u32, u32, Meeting);
+
+/// All meetings of walked edges of which one at least is numbered `first_fresh` or more; none if
+/// there are too many pairs to look at.
+fn find_meetings(
+    ellipsoid: &Ellipsoid,
+    graph: &BoundaryGraph,
+    users: &EdgeUsers,
+    first_fresh: usize,
+) -> Option<Vec<Found>> {
+    let candidates = candidates(graph, users, first_fresh);
+    let edges: Vec<Edge> = candidates
+        .iter()
+        .map(|&edge| graph.edges[edge as usize])
+        .collect();
+    EdgeGrid::new(&edges)
+        .pairs(
+            |index| candidates[index as usize] as usize >= first_fresh,
+            |a, b, found| {
+                let (first, second) = (candidates[a as usize], candidates[b as usize]);
+                meetings(
+                    ellipsoid,
+                    &edges[a as usize],
+                    &edges[b as usize],
+                    |meeting| {
+                        found.push((first, second, meeting));
+                    },
+                );
+            },
+        )
+        .ok()
+}
+
+/// Walked edges that are fresh or lie near fresh ones.
+fn candidates(graph: &BoundaryGraph, users: &EdgeUsers, first_fresh: usize) -> Vec<u32> {
+    let walked = |&edge: &u32| !users.of(edge).is_empty();
+    let all = (0..graph.edges.len() as u32).filter(walked);
+    if first_fresh == 0 {
+        return all.collect();
+    }
+    let fresh: Vec<LatticeBox> = (first_fresh as u32..graph.edges.len() as u32)
+        .filter(walked)
+        .map(|edge| LatticeBox::around(&graph.edges[edge as usize]))
+        .collect();
+    // A linear scan pays while few edges are fresh, which is the rule.
+    if fresh.len() > 256 {
+        return all.collect();
+    }
+    all.filter(|&edge| {
+        let edge_box = LatticeBox::around(&graph.edges[edge as usize]);
+        edge as usize >= first_fresh || fresh.iter().any(|other| other.meets(&edge_box))
+    })
+    .collect()
+}
+
+/// Points at which edges are to be split.
+#[derive(Default)]
+struct Splits {
+    points: FxHashMap<u32, Vec<LatticePoint>>,
+}
+
+impl Splits {
+    fn add(&mut self, edge: u32, point: LatticePoint) {
+        self.points.entry(edge).or_default().push(point);
+    }
+
+    fn apply(self, graph: &mut BoundaryGraph, polygons: &mut [PolygonWalk], users: &EdgeUsers) {
+        let mut touched: Vec<u32> = Vec::new();
+        let mut parts: FxHashMap<u32, Vec<DirectedEdge>> = FxHashMap::default();
+        for (edge, points) in self.points {
+            touched.extend(users.of(edge));
+            parts.insert(edge, split(graph, graph.edges[edge as usize], points));
+        }
+        touched.sort_unstable();
+        touched.dedup();
+        for polygon in touched {
+            for ring in &mut polygons[polygon as usize].rings {
+                *ring = replace_parts(ring, &parts);
+            }
+        }
+    }
+}
+
+/// The parts of an edge between the points, in its order. Parts without length vanish.
+fn split(graph: &mut BoundaryGraph, edge: Edge, points: Vec<LatticePoint>) -> Vec<DirectedEdge> {
+    let (turn, rise) = (edge.turn() as f64, (edge.end.lat - edge.start.lat) as f64);
+    let progress = |point: LatticePoint| {
+        let (x, y) = (point.lon - edge.start.lon, point.lat - edge.start.lat);
+        (x as f64 * turn + y as f64 * rise) / (turn * turn + rise * rise)
+    };
+    let mut stops: Vec<(f64, LatticePoint)> = points
+        .into_iter()
+        .map(|point| {
+            // The turn of the edge: points come with canonical longitudes.
+            let turned = (-2..=2)
+                .map(|turns| point.turned(turns))
+                .min_by_key(|turned| {
+                    let middle = edge.start.lon + edge.turn() / 2;
+                    (turned.lon - middle).abs()
+                });
+            turned.unwrap_or(point)
+        })
+        .map(|point| (progress(point), point))
+        .collect();
+    stops.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut parts = Vec::with_capacity(stops.len() + 1);
+    let mut last = edge.start;
+    for point in stops.into_iter().map(|(_, point)| point).chain([edge.end]) {
+        parts.extend(graph.insert(edge.kind, last, point));
+        last = point;
+    }
+    parts
+}
+
+fn replace_parts(ring: &RingWalk, parts: &FxHashMap<u32, Vec<DirectedEdge>>) -> RingWalk {
+    let mut walk = RingWalk::default();
+    for (&edge, &vertex) in ring.edges.iter().zip(&ring.vertices) {
+        match parts.get(&edge.edge()) {
+            None => walk.edges.push(edge),
+            Some(parts) if edge.is_forward() => walk.edges.extend(parts),
+            Some(parts) => walk
+                .edges
+                .extend(parts.iter().rev().map(|part| part.reversed())),
+        }
+        walk.vertices.resize(walk.edges.len(), vertex);
+    }
+    walk
+}

@@ -1,0 +1,159 @@
+//! Which pieces may overlap: all other pairs are proven disjoint.
+//!
+//! Two pieces whose boundaries do not cross, whose sectors at common nodes are disjoint, and of
+//! whose loops none starts inside the other, are disjoint: were a point common to both, then either
+//! a loop of one would enter the inside of the other (it cannot cross its boundary, so it would lie
+//! there wholly, or leave a common node into a sector of it), or the one would lie in the other, and
+//! its loops with it.
+
+use rayon::prelude::*;
+use rustc_hash::FxHashMap;
+
+use crate::{
+    arcs::EdgeSides,
+    boundary_graph::{BoundaryGraph, DirectedEdge},
+    ellipsoid::Ellipsoid,
+    headings::sort_counter_clockwise,
+    inside::{Boundary, point_on},
+    meridian_index::MeridianIndex,
+};
+
+type Pair = (u32, u32);
+
+fn pair(a: u32, b: u32) -> Pair {
+    (a.min(b), a.max(b))
+}
+
+/// Sorted pairs of pieces that may overlap; `crossing` are those whose boundaries cross.
+pub(crate) fn overlaps(
+    ellipsoid: &Ellipsoid,
+    graph: &BoundaryGraph,
+    sides: &EdgeSides,
+    pieces: &[Boundary],
+    crossing: impl Iterator<Item = Pair>,
+) -> Vec<Pair> {
+    let mut pairs: Vec<Pair> = crossing.collect();
+    add_same_side(sides, &mut pairs);
+    add_common_sectors(ellipsoid, graph, sides, pieces, &mut pairs);
+    add_contained(ellipsoid, graph, pieces, &mut pairs);
+    pairs.sort_unstable();
+    pairs.dedup();
+    pairs
+}
+
+/// Pieces on the same side of one edge.
+fn add_same_side(sides: &EdgeSides, pairs: &mut Vec<Pair>) {
+    let mut further = sides.further().to_vec();
+    further.sort_unstable_by_key(|(edge, piece)| (edge.index(), *piece));
+    for run in further.chunk_by(|a, b| a.0 == b.0) {
+        for (index, &(edge, piece)) in run.iter().enumerate() {
+            let others = run[..index].iter().map(|(_, other)| *other);
+            let all = sides.left_of(edge).into_iter().chain(others);
+            pairs.extend(
+                all.filter(|&other| other != piece)
+                    .map(|other| pair(other, piece)),
+            );
+        }
+    }
+}
+
+/// Pieces that have a sector in common at a node where three or more edges meet. (Where two meet,
+/// each side of both edges belongs to one piece, or is listed already.)
+fn add_common_sectors(
+    ellipsoid: &Ellipsoid,
+    graph: &BoundaryGraph,
+    sides: &EdgeSides,
+    pieces: &[Boundary],
+    pairs: &mut Vec<Pair>,
+) {
+    let mut stars: FxHashMap<u32, Vec<DirectedEdge>> = FxHashMap::default();
+    for &edge in pieces.iter().flat_map(|piece| piece.loops.iter().flatten()) {
+        for outgoing in [edge, edge.reversed()] {
+            let node = graph.start_node(outgoing);
+            if sides.degree(node) > 2 {
+                stars.entry(node).or_default().push(outgoing);
+            }
+        }
+    }
+    let mut further: FxHashMap<DirectedEdge, Vec<u32>> = FxHashMap::default();
+    for &(edge, piece) in sides.further() {
+        further.entry(edge).or_default().push(piece);
+    }
+    let left_of = |edge: DirectedEdge| {
+        let more = further.get(&edge).into_iter().flatten().copied();
+        sides.left_of(edge).into_iter().chain(more)
+    };
+    for star in stars.values_mut() {
+        star.sort_unstable_by_key(|edge| edge.index());
+        star.dedup();
+        let certain = sort_counter_clockwise(ellipsoid, graph, star);
+        let mut present: Vec<u32> = Vec::new();
+        // The first round finds what covers the first edge's beginning.
+        for edge in star.iter().chain(star.iter()) {
+            if certain {
+                for ended in left_of(edge.reversed()) {
+                    present.retain(|&piece| piece != ended);
+                }
+            }
+            for begun in left_of(*edge) {
+                pairs.extend(
+                    present
+                        .iter()
+                        .filter(|&&other| other != begun)
+                        .map(|&other| pair(other, begun)),
+                );
+                if !present.contains(&begun) {
+                    present.push(begun);
+                }
+            }
+        }
+    }
+}
+
+/// Pieces that contain a vertex of a loop of another.
+fn add_contained(
+    ellipsoid: &Ellipsoid,
+    graph: &BoundaryGraph,
+    pieces: &[Boundary],
+    pairs: &mut Vec<Pair>,
+) {
+    let labelled = pieces.iter().enumerate().flat_map(|(piece, boundary)| {
+        boundary
+            .loops
+            .iter()
+            .flatten()
+            .map(move |&edge| (edge, piece as u32))
+    });
+    let index = MeridianIndex::new(ellipsoid, graph, labelled);
+    let has_pole = |piece: u32| {
+        let boundary = &pieces[piece as usize];
+        boundary.loops.is_empty() || boundary.enclosed.has_north_pole()
+    };
+    let polar: Vec<u32> = (0..pieces.len() as u32)
+        .filter(|&piece| has_pole(piece))
+        .collect();
+    let found: Vec<Pair> = pieces
+        .par_iter()
+        .enumerate()
+        .flat_map_iter(|(own, boundary)| {
+            let own = own as u32;
+            let (index, polar) = (&index, &polar);
+            boundary.loops.iter().flat_map(move |edges| {
+                let mut void = vec![own];
+                let point = point_on(graph, edges.iter().copied());
+                let separating = index.separating(point, |label| void.push(label));
+                let outside_pole = separating.iter().filter(|&&other| !has_pole(other));
+                let around_pole = polar
+                    .iter()
+                    .filter(|other| separating.binary_search(other).is_err());
+                let containing = outside_pole
+                    .chain(around_pole)
+                    .filter(|other| !void.contains(other));
+                containing
+                    .map(|&other| pair(own, other))
+                    .collect::<Vec<_>>()
+            })
+        })
+        .collect();
+    pairs.extend(found);
+}

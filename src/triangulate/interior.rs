@@ -1,0 +1,112 @@
+//! Interior vertices: as many as the sag limit asks for.
+
+use glam::{DVec2, DVec3};
+use spade::{PositionInTriangulation, Triangulation, handles::FixedVertexHandle};
+
+use super::{
+    chart::Chart,
+    constrained::{Constrained, Face},
+    lattice::LATTICE,
+    sag,
+};
+
+/// Lattice points nearer than this to a corner of their triangle are left out, radians (0.9°, half
+/// the lattice's spacing).
+const CLEARANCE_RAD: f64 = 0.0157;
+/// Rounds of splitting. Each halves what is too long; 2° to 180° needs seven.
+const ROUNDS: usize = 40;
+
+/// Adds vertices until no filled triangle sags too deep: lattice points in the wide parts first, then
+/// the middles of sides that are too long. The boundary is never split.
+pub(super) fn refine(constrained: &mut Constrained) {
+    let deep = deep_faces(constrained);
+    if !deep.contains(&true) {
+        return;
+    }
+    for point in lattice_points(constrained, &deep) {
+        constrained.insert(constrained.chart.project(point), point);
+    }
+    for _ in 0..ROUNDS {
+        constrained.wind();
+        if !split_long_sides(constrained) {
+            break;
+        }
+    }
+    constrained.wind();
+}
+
+/// Per face, whether it is filled and sags too deep.
+fn deep_faces(constrained: &Constrained) -> Vec<bool> {
+    let mut deep = vec![false; constrained.cdt.num_all_faces()];
+    for face in constrained.cdt.fixed_inner_faces() {
+        deep[face.index()] = is_deep(constrained, face);
+    }
+    deep
+}
+
+fn is_deep(constrained: &Constrained, face: Face) -> bool {
+    constrained.winding(face) != 0 && sag::of_triangle(constrained.corners(face)) > sag::limit()
+}
+
+/// The lattice points in deep faces, away from their corners.
+fn lattice_points(constrained: &Constrained, deep: &[bool]) -> Vec<DVec3> {
+    let centre = constrained.chart.centre();
+    let boundary = constrained.points.iter().map(|p| p.dot(centre));
+    let lowest = boundary.fold(1.0, f64::min);
+    let mut found = Vec::new();
+    for &point in LATTICE.points.iter().filter(|p| p.dot(centre) > lowest) {
+        let plane = constrained.chart.project(point);
+        let position = spade::mitigate_underflow(spade::Point2::new(plane.x, plane.y));
+        if let PositionInTriangulation::OnFace(face) = constrained.cdt.locate(position) {
+            let clear = |corner: DVec3| corner.distance_squared(point) > CLEARANCE_RAD.powi(2);
+            if deep[face.index()] && constrained.corners(face).into_iter().all(clear) {
+                found.push(point);
+            }
+        }
+    }
+    found
+}
+
+/// Splits the longest side of every deep face; whether there was any to split.
+fn split_long_sides(constrained: &mut Constrained) -> bool {
+    let faces = constrained.cdt.fixed_inner_faces();
+    let deep = faces.filter(|&face| is_deep(constrained, face));
+    let mut sides: Vec<_> = deep
+        .filter_map(|face| longest_side(constrained, face))
+        .collect();
+    sides.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+    sides.dedup_by_key(|side| side.1);
+    for &(_, [from, to]) in &sides {
+        // Splitting a longer side may have removed this one.
+        let [from, to] = [from, to].map(FixedVertexHandle::from_index);
+        if constrained.cdt.get_edge_from_neighbors(from, to).is_some() {
+            let plane = middle(constrained, [from, to]);
+            constrained.insert(plane, constrained.chart.unproject(plane));
+        }
+    }
+    !sides.is_empty()
+}
+
+/// Squared length and vertices, in ascending order, of a face's longest side that is not boundary.
+fn longest_side(constrained: &Constrained, face: Face) -> Option<(f64, [usize; 2])> {
+    let edges = constrained.cdt.face(face).adjacent_edges();
+    let inner = edges.into_iter().filter(|edge| !edge.is_constraint_edge());
+    let sides = inner.map(|edge| {
+        let mut ends = edge.vertices().map(|v| v.index());
+        ends.sort_unstable();
+        let [a, b] = ends.map(|v| constrained.points[v]);
+        (a.distance_squared(b), ends)
+    });
+    sides.max_by(|a, b| a.0.total_cmp(&b.0))
+}
+
+/// The point of the straight edge in the chart that is equally far, on the sphere, from both ends.
+fn middle(constrained: &Constrained, ends: [FixedVertexHandle; 2]) -> DVec2 {
+    let [a, b] = ends.map(|end| {
+        let position = constrained.cdt.vertex(end).position();
+        DVec2::new(position.x, position.y)
+    });
+    // The chord between images p, q is |p − q| √(scale(p) scale(q)).
+    let [near_a, near_b] = [a, b].map(|p| Chart::scale(p).sqrt());
+    (a * near_a + b * near_b) / (near_a + near_b)
+}
