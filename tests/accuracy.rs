@@ -18,7 +18,10 @@ use common::{
     surface::{Cast, DepthKind, Surface, Terrain},
 };
 use glam::UVec2;
-use globefill::{CountTechnique, EdgeKind, Ellipsoid, FillMesh, LonLat, Region, View};
+use globefill::{
+    CountTechnique, EdgeKind, Ellipsoid, FillMesh, LonLat, Region, View, countries::Dataset,
+    fill_mesh::MeshOptions,
+};
 
 const SMALL: UVec2 = UVec2::new(320, 180);
 const FULL: UVec2 = UVec2::new(1280, 720);
@@ -43,6 +46,12 @@ impl Subject {
 
     fn pair(name: &str, pair: Pair) -> Self {
         Self::new(name, &pair.regions(), pair.mesh())
+    }
+
+    fn countries(dataset: Dataset) -> Self {
+        let regions: Vec<Region> = dataset.countries().into_iter().map(|c| c.region).collect();
+        let mesh = FillMesh::build(&regions, &MeshOptions::default()).expect("real countries");
+        Self::new(&format!("{dataset:?}"), &regions, mesh)
     }
 
     /// The middle of the first edge of the first region.
@@ -232,6 +241,68 @@ fn nothing_is_wrong_along_and_across_an_edge_at_full_size() {
 #[test]
 fn nothing_is_wrong_with_four_samples() {
     along_and_across_an_edge(SMALL, 4);
+}
+
+/// A point of the border between Germany and France where the Rhine is: near Strasbourg.
+fn on_the_rhine(subject: &Subject) -> LonLat {
+    let figure = &subject.oracle.figure;
+    let strasbourg = figure.ecef(LonLat::new(7.8, 48.57), 0.0);
+    let nearest = (0..subject.oracle.region_count())
+        .flat_map(|region| subject.oracle.boundary(region))
+        .map(|edge| (edge.nearest(figure, strasbourg), edge))
+        .min_by(|a, b| a.0.0.total_cmp(&b.0.0));
+    let ((_, t), edge) = nearest.expect("countries have edges");
+    edge.point(figure, t)
+}
+
+/// The world, a country, the horizon, and a border from near by.
+fn countries_from_everywhere(dataset: Dataset, size_px: UVec2) {
+    let Some(gpu) = gpu() else { return };
+    let mut gate = Gate::new(gpu, size_px, 1);
+    let subject = Subject::countries(dataset);
+    for (lon_deg, lat_deg) in [(10.0, 20.0), (100.0, 30.0), (-100.0, 10.0), (180.0, -20.0)] {
+        gate.check(&subject, Pose::nadir(lon_deg, lat_deg, 2e7), Terrain::Bare);
+    }
+    for lat_deg in [90.0, -90.0] {
+        gate.check(&subject, Pose::nadir(0.0, lat_deg, 1e7), Terrain::Bare);
+    }
+    let germany = Pose::nadir(10.4, 51.1, 9e5);
+    let horizon = Pose::nadir(8.0, 47.0, 5e4).turned(20.0, -5.0);
+    for terrain in [Terrain::Bare, PLATEAU, Terrain::Rough] {
+        gate.check(&subject, germany, terrain);
+        gate.check(&subject, horizon, terrain);
+    }
+    let border = on_the_rhine(&subject);
+    for terrain in [Terrain::Bare, PLATEAU, Terrain::Rough] {
+        for (height_m, heading_deg, pitch_deg) in [
+            (1000.0, 30.0, -30.0),
+            (100.0, 200.0, -30.0),
+            (1.7, 30.0, -15.0),
+        ] {
+            let height_m = above(terrain, border, height_m);
+            let pose = Pose::nadir(border.lon_deg, border.lat_deg, height_m)
+                .turned(heading_deg, pitch_deg);
+            gate.check(&subject, pose, terrain);
+        }
+    }
+    gate.finish();
+}
+
+#[test]
+fn nothing_is_wrong_on_countries_of_110m() {
+    countries_from_everywhere(Dataset::Countries110m, SMALL);
+}
+
+#[test]
+fn nothing_is_wrong_on_countries_of_50m() {
+    countries_from_everywhere(Dataset::Countries50m, SMALL);
+}
+
+#[test]
+#[ignore = "full size; see the head of this file"]
+fn nothing_is_wrong_on_countries_at_full_size() {
+    countries_from_everywhere(Dataset::Countries110m, FULL);
+    countries_from_everywhere(Dataset::Countries50m, FULL);
 }
 
 /// The gate can fail: a border drawn a fifth of a pixel aside is seen as that.
