@@ -109,14 +109,19 @@ impl<'a> Gate<'a> {
                 self.note(&format!("{view}, {count:?}"), &score);
                 picture.ids
             });
-            let disagreeing = pictures[0]
-                .iter()
-                .zip(&pictures[1])
-                .filter(|(a, b)| a != b)
-                .count();
-            if disagreeing != 0 {
+            let disagreeing: Vec<usize> = (0..surface.pixel_count())
+                .filter(|&pixel| pictures[0][pixel] != pictures[1][pixel])
+                .collect();
+            if let Some(&pixel) = disagreeing.first() {
+                let width = self.size_px.x as usize;
                 self.failed.push(format!(
-                    "{view}: techniques disagree at {disagreeing} pixels"
+                    "{view}: techniques disagree at {} pixels; at {}, {}: {} and {}, truly {}",
+                    disagreeing.len(),
+                    pixel % width,
+                    pixel / width,
+                    pictures[0][pixel],
+                    pictures[1][pixel],
+                    expected[pixel]
                 ));
             }
         }

@@ -80,7 +80,7 @@ impl Terrain {
             let after = (before + step).min(leave + 1e-3);
             gap = gap_m(after);
             if gap <= 0.0 {
-                return Some(bisect(gap_m, before, after));
+                return Some(zero_between(gap_m, before, after));
             }
             before = after;
         }
@@ -88,16 +88,30 @@ impl Terrain {
     }
 }
 
-fn bisect(gap_m: impl Fn(f64) -> f64, mut above: f64, mut below: f64) -> f64 {
+/// The zero of a gap between two parameters of different sign: regula falsi that halves the weight
+/// of an end that stays (Illinois).
+fn zero_between(gap_m: impl Fn(f64) -> f64, above: f64, below: f64) -> f64 {
+    let (mut low, mut high) = ((above, gap_m(above)), (below, gap_m(below)));
+    let mut last_above = None;
     for _ in 0..60 {
-        let middle = 0.5 * (above + below);
-        if gap_m(middle) > 0.0 {
-            above = middle;
-        } else {
-            below = middle;
+        let t = low.0 + (high.0 - low.0) * low.1 / (low.1 - high.1);
+        let gap = gap_m(t);
+        if gap.abs() < 1e-8 || t <= low.0 || t >= high.0 {
+            return t;
         }
+        let is_above = gap > 0.0;
+        if is_above {
+            low = (t, gap);
+        } else {
+            high = (t, gap);
+        }
+        if last_above == Some(is_above) {
+            let stale = if is_above { &mut high.1 } else { &mut low.1 };
+            *stale *= 0.5;
+        }
+        last_above = Some(is_above);
     }
-    0.5 * (above + below)
+    0.5 * (low.0 + high.0)
 }
 
 /// Sample positions within a pixel: the standard ones of the graphics APIs.
