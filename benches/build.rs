@@ -8,13 +8,23 @@ use globefill::{
 };
 
 fn regions(dataset: Dataset) -> Vec<Region> {
-    dataset.countries().into_iter().map(|country| country.region).collect()
+    dataset
+        .countries()
+        .into_iter()
+        .map(|country| country.region)
+        .collect()
 }
 
 /// A square with a hole, as text.
 fn geojson_text() -> String {
     let ring = |half: f64| {
-        let corners = [[-half, -half], [half, -half], [half, half], [-half, half], [-half, -half]];
+        let corners = [
+            [-half, -half],
+            [half, -half],
+            [half, half],
+            [-half, half],
+            [-half, -half],
+        ];
         serde_json::to_string(&corners).expect("finite")
     };
     format!(
