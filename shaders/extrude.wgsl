@@ -18,6 +18,7 @@ struct Frame {
     // w: the most that z and slack may add, m.
     heights: vec4<f32>,
     // Added above and below for the host's depth steps: x + y * distance + z * distance^2, m.
+    // w: distance of the near plane, m.
     slack: vec4<f32>,
 }
 
@@ -97,21 +98,13 @@ fn arc_of(slot: u32) -> u32 {
     return arc;
 }
 
-struct Face {
-    @builtin(position) @invariant position: vec4<f32>,
-    // Seen from outside the volume of the left piece.
-    @location(0) @interpolate(flat) weight: vec4<f32>,
-}
-
 // Cap-only inputs. instance = 2 * piece + (1 for the bottom cap).
 @vertex
 fn vs_cap(@builtin(vertex_index) vertex: u32, @builtin(instance_index) instance: u32) -> Face {
     let bottom = (instance & 1u) == 1u;
-    var face: Face;
-    face.position = clip(vertices[vertex], select(TOP, BOTTOM, bottom));
     // The bottom cap is the same triangle seen from below.
-    face.weight = code_digits((instance >> 1u) + 1u) * select(1.0, -1.0, bottom);
-    return face;
+    let weight = code_digits((instance >> 1u) + 1u) * select(1.0, -1.0, bottom);
+    return face(vertices[vertex], select(TOP, BOTTOM, bottom), weight);
 }
 
 struct WallCorner {
@@ -139,35 +132,23 @@ fn wall_corner(k: u32) -> WallCorner {
 @vertex
 fn vs_wall(@builtin(vertex_index) k: u32) -> Face {
     let corner = wall_corner(k);
-    var face: Face;
-    face.position = clip(vertices[corner.slot], corner.drawn);
-    face.weight = arc_weight(corner.arc);
-    return face;
+    return face(vertices[corner.slot], corner.drawn, arc_weight(corner.arc));
 }
 
 // Refined walls: an index is 4 * vertex + how it is drawn; `vertices` is the patch's own buffer.
 @vertex
 fn vs_patch(@builtin(vertex_index) index: u32, @builtin(instance_index) arc: u32) -> Face {
-    var face: Face;
-    face.position = clip(vertices[index >> 2u], index & 3u);
-    face.weight = arc_weight(arc);
-    return face;
+    return face(vertices[index >> 2u], index & 3u, arc_weight(arc));
 }
 
 // The same walls where the stencil has counted and a single piece is to be painted.
 @vertex
 fn vs_wall_cover(@builtin(vertex_index) k: u32, @builtin(instance_index) piece: u32) -> Face {
     let corner = wall_corner(k);
-    var face: Face;
-    face.position = clip(vertices[corner.slot], corner.drawn);
-    face.weight = code_digits(piece + 1u);
-    return face;
+    return face(vertices[corner.slot], corner.drawn, code_digits(piece + 1u));
 }
 
 @vertex
 fn vs_patch_cover(@builtin(vertex_index) index: u32, @builtin(instance_index) piece: u32) -> Face {
-    var face: Face;
-    face.position = clip(vertices[index >> 2u], index & 3u);
-    face.weight = code_digits(piece + 1u);
-    return face;
+    return face(vertices[index >> 2u], index & 3u, code_digits(piece + 1u));
 }

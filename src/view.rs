@@ -203,7 +203,7 @@ impl FrameUniform {
             eye_remainder: [x, y, z, outward],
             normal_scale: [1.0, 1.0, (ratio * ratio) as f32, 0.0],
             heights: heights.map(|height| height as f32),
-            slack: [constant, linear, quadratic, 0.0],
+            slack: [constant, linear, quadratic, sight.near_m as f32],
         }
     }
 }
