@@ -174,6 +174,28 @@ impl Constrained {
         (centre, radius * Chart::scale(centre))
     }
 
+    /// The point of a face, in the chart, that is nearest to the chart's centre.
+    pub(super) fn nearest_to_centre(&self, face: Face) -> DVec2 {
+        let centre = Point2::new(0.0, 0.0);
+        let edges = self.cdt.face(face).adjacent_edges();
+        if edges
+            .iter()
+            .all(|e| e.side_query(centre).is_on_left_side_or_on_line())
+        {
+            return DVec2::ZERO;
+        }
+        let nearest = edges.map(|e| e.as_undirected().nearest_point(centre));
+        let nearest = nearest.map(|p| DVec2::new(p.x, p.y));
+        let closer = |a: DVec2, b: DVec2| {
+            if a.length_squared() < b.length_squared() {
+                a
+            } else {
+                b
+            }
+        };
+        closer(closer(nearest[0], nearest[1]), nearest[2])
+    }
+
     /// The points of a face's corners.
     pub(super) fn corners(&self, face: Face) -> [DVec3; 3] {
         let vertices = self.cdt.face(face).vertices();

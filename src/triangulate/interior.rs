@@ -45,7 +45,25 @@ fn deep_faces(constrained: &Constrained) -> Vec<bool> {
 }
 
 fn is_deep(constrained: &Constrained, face: Face) -> bool {
-    constrained.winding(face) != 0 && sag::of_triangle(constrained.corners(face)) > sag::limit()
+    if constrained.winding(face) == 0 {
+        return false;
+    }
+    let corners = constrained.corners(face);
+    sag::of_triangle(corners) > sag::limit() || goes_round(constrained, face, corners)
+}
+
+/// Whether a face of the chart is the far side of the small flat triangle between its corners: three
+/// corners of a hole whose outside is filled.
+fn goes_round(constrained: &Constrained, face: Face, [a, b, c]: [DVec3; 3]) -> bool {
+    // The circle through the corners is then larger than a great one; but so is that of slivers.
+    if a.dot((b - a).cross(c - a)) > 0.0 {
+        return false;
+    }
+    let farthest = constrained
+        .chart
+        .unproject(constrained.nearest_to_centre(face));
+    let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
+    farthest.distance(a) > longest
 }
 
 /// The lattice points in deep faces, away from their corners.
@@ -87,17 +105,20 @@ fn split_long_sides(constrained: &mut Constrained) -> bool {
     !sides.is_empty()
 }
 
-/// Squared length and vertices, in ascending order, of a face's longest side that is not boundary.
+/// Squared length and vertices, in ascending order, of a face's longest side, unless that is boundary.
+///
+/// It never is where no chord is longer than 2° of arc; and where one is, splitting the other sides
+/// would not end.
 fn longest_side(constrained: &Constrained, face: Face) -> Option<(f64, [usize; 2])> {
     let edges = constrained.cdt.face(face).adjacent_edges();
-    let inner = edges.into_iter().filter(|edge| !edge.is_constraint_edge());
-    let sides = inner.map(|edge| {
+    let sides = edges.map(|edge| {
         let mut ends = edge.vertices().map(|v| v.index());
         ends.sort_unstable();
         let [a, b] = ends.map(|v| constrained.points[v]);
-        (a.distance_squared(b), ends)
+        (a.distance_squared(b), ends, edge.is_constraint_edge())
     });
-    sides.max_by(|a, b| a.0.total_cmp(&b.0))
+    let longest = sides.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
+    longest.and_then(|(length, ends, boundary)| (!boundary).then_some((length, ends)))
 }
 
 /// The point of the straight edge in the chart that is equally far, on the sphere, from both ends.
