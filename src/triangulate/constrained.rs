@@ -202,10 +202,10 @@ impl Constrained {
         vertices.map(|v| self.points[v.index()])
     }
 
-    /// Adds a vertex, unless it would split a piece of boundary.
-    pub(super) fn insert(&mut self, plane: DVec2, point: DVec3) {
-        let position = mitigate_underflow(Point2::new(plane.x, plane.y));
-        let beside_boundary = match self.cdt.locate(position) {
+    /// Adds a vertex, unless it would split a piece of boundary. It is looked for from `near` on.
+    pub(super) fn insert(&mut self, plane: DVec2, point: DVec3, near: FixedVertexHandle) {
+        let position = position(plane);
+        let beside_boundary = match self.cdt.locate_with_hint(position, near) {
             PositionInTriangulation::OnFace(_) => true,
             PositionInTriangulation::OnEdge(edge) => {
                 !self.cdt.is_constraint_edge(edge.as_undirected())
@@ -213,7 +213,7 @@ impl Constrained {
             _ => false,
         };
         // A finite position is the only condition of an insertion.
-        if beside_boundary && self.cdt.insert(position).is_ok() {
+        if beside_boundary && self.cdt.insert_with_hint(position, near).is_ok() {
             self.points.push(point);
         }
     }
@@ -234,6 +234,11 @@ impl Constrained {
         triangles
     }
 
+    /// Number of vertices that were added inside.
+    pub(super) fn interior_count(&self) -> usize {
+        self.points.len() - self.names.len()
+    }
+
     /// The vertices that were added inside.
     pub(super) fn into_interior(mut self) -> Vec<DVec3> {
         self.points.split_off(self.names.len())
@@ -249,8 +254,13 @@ fn direction(edge: FixedDirectedEdgeHandle) -> i32 {
     }
 }
 
+/// A position that the triangulation accepts: it has no use for numbers below 10⁻⁴³.
+pub(super) fn position(plane: DVec2) -> Point2<f64> {
+    mitigate_underflow(Point2::new(plane.x, plane.y))
+}
+
 /// The distinct positions of points in a chart.
-struct Sites {
+pub struct Sites {
     positions: Vec<Point2<f64>>,
     /// For each site the first point there.
     names: Vec<u32>,
@@ -259,7 +269,7 @@ struct Sites {
 }
 
 impl Sites {
-    fn new(chart: &Chart, points: &[DVec3]) -> Self {
+    pub fn new(chart: &Chart, points: &[DVec3]) -> Self {
         let mut sites = Self {
             positions: Vec::with_capacity(points.len()),
             names: Vec::with_capacity(points.len()),
@@ -267,8 +277,7 @@ impl Sites {
         };
         let mut known = FxHashMap::with_capacity_and_hasher(points.len(), Default::default());
         for (name, &point) in points.iter().enumerate() {
-            let plane = chart.project(point);
-            let position = mitigate_underflow(Point2::new(plane.x, plane.y));
+            let position = position(chart.project(point));
             // `+ 0.0` turns −0 into +0, so that equal positions have equal bits.
             let key = [position.x, position.y].map(|x| (x + 0.0).to_bits());
             let site = *known.entry(key).or_insert_with(|| {
@@ -283,7 +292,7 @@ impl Sites {
 
     /// Triangulates the sites with all constraints that do not cross one before; the others, too,
     /// become walks later. `None` if the sites span no area.
-    fn triangulate(&mut self, outline: &Outline) -> Option<Cdt> {
+    pub fn triangulate(&mut self, outline: &Outline) -> Option<Cdt> {
         let site_edges = outline
             .edges()
             .map(|edge| edge.map(|p| self.of_point[p] as usize));

@@ -5,7 +5,7 @@ use spade::{PositionInTriangulation, Triangulation, handles::FixedVertexHandle};
 
 use super::{
     chart::Chart,
-    constrained::{Constrained, Face},
+    constrained::{Constrained, Face, position},
     lattice::LATTICE,
     sag,
 };
@@ -15,6 +15,9 @@ use super::{
 const CLEARANCE_RAD: f64 = 0.0157;
 /// Rounds of splitting. Each halves what is too long; 2° to 180° needs seven.
 const ROUNDS: usize = 40;
+/// Interior vertices after which nothing more is split. The whole globe needs 14 442; loops that
+/// need more have chords longer than 2°, or wind around all of it many times.
+const INTERIOR_MAX: usize = 40_000;
 
 /// Adds vertices until no filled triangle sags too deep: lattice points in the wide parts first, then
 /// the middles of sides that are too long. The boundary is never split.
@@ -23,16 +26,16 @@ pub(super) fn refine(constrained: &mut Constrained) {
     if !deep.contains(&true) {
         return;
     }
-    for point in lattice_points(constrained, &deep) {
-        constrained.insert(constrained.chart.project(point), point);
-    }
-    for _ in 0..ROUNDS {
-        constrained.wind();
-        if !split_long_sides(constrained) {
-            break;
-        }
+    for (point, near) in lattice_points(constrained, &deep) {
+        constrained.insert(constrained.chart.project(point), point, near);
     }
     constrained.wind();
+    for _ in 0..ROUNDS {
+        if constrained.interior_count() > INTERIOR_MAX || !split_long_sides(constrained) {
+            break;
+        }
+        constrained.wind();
+    }
 }
 
 /// Per face, whether it is filled and sags too deep.
@@ -66,19 +69,19 @@ fn goes_round(constrained: &Constrained, face: Face, [a, b, c]: [DVec3; 3]) -> b
     farthest.distance(a) > longest
 }
 
-/// The lattice points in deep faces, away from their corners.
-fn lattice_points(constrained: &Constrained, deep: &[bool]) -> Vec<DVec3> {
+/// The lattice points in deep faces, away from their corners, each with one of these.
+fn lattice_points(constrained: &Constrained, deep: &[bool]) -> Vec<(DVec3, FixedVertexHandle)> {
     let centre = constrained.chart.centre();
     let boundary = constrained.points.iter().map(|p| p.dot(centre));
     let lowest = boundary.fold(1.0, f64::min);
     let mut found = Vec::new();
     for &point in LATTICE.points.iter().filter(|p| p.dot(centre) > lowest) {
-        let plane = constrained.chart.project(point);
-        let position = spade::mitigate_underflow(spade::Point2::new(plane.x, plane.y));
+        let position = position(constrained.chart.project(point));
         if let PositionInTriangulation::OnFace(face) = constrained.cdt.locate(position) {
             let clear = |corner: DVec3| corner.distance_squared(point) > CLEARANCE_RAD.powi(2);
             if deep[face.index()] && constrained.corners(face).into_iter().all(clear) {
-                found.push(point);
+                let corner = constrained.cdt.face(face).vertices()[0];
+                found.push((point, corner.fix()));
             }
         }
     }
@@ -99,7 +102,7 @@ fn split_long_sides(constrained: &mut Constrained) -> bool {
         let [from, to] = [from, to].map(FixedVertexHandle::from_index);
         if constrained.cdt.get_edge_from_neighbors(from, to).is_some() {
             let plane = middle(constrained, [from, to]);
-            constrained.insert(plane, constrained.chart.unproject(plane));
+            constrained.insert(plane, constrained.chart.unproject(plane), from);
         }
     }
     !sides.is_empty()
