@@ -260,7 +260,7 @@ pub(super) fn position(plane: DVec2) -> Point2<f64> {
 }
 
 /// The distinct positions of points in a chart.
-pub struct Sites {
+struct Sites {
     positions: Vec<Point2<f64>>,
     /// For each site the first point there.
     names: Vec<u32>,
@@ -269,7 +269,7 @@ pub struct Sites {
 }
 
 impl Sites {
-    pub fn new(chart: &Chart, points: &[DVec3]) -> Self {
+    fn new(chart: &Chart, points: &[DVec3]) -> Self {
         let mut sites = Self {
             positions: Vec::with_capacity(points.len()),
             names: Vec::with_capacity(points.len()),
@@ -292,7 +292,7 @@ impl Sites {
 
     /// Triangulates the sites with all constraints that do not cross one before; the others, too,
     /// become walks later. `None` if the sites span no area.
-    pub fn triangulate(&mut self, outline: &Outline) -> Option<Cdt> {
+    fn triangulate(&mut self, outline: &Outline) -> Option<Cdt> {
         let site_edges = outline
             .edges()
             .map(|edge| edge.map(|p| self.of_point[p] as usize));

@@ -52,7 +52,7 @@ fn is_deep(constrained: &Constrained, face: Face) -> bool {
         return false;
     }
     let corners = constrained.corners(face);
-    sag::of_triangle(corners) > sag::limit() || goes_round(constrained, face, corners)
+    sag::deeper(sag::limit(), corners) > sag::limit() || goes_round(constrained, face, corners)
 }
 
 /// Whether a face of the chart is the far side of the small flat triangle between its corners: three
