@@ -7,7 +7,7 @@ use std::{collections::HashMap, f64::consts::PI, f64::consts::TAU};
 
 use glam::{DQuat, DVec3};
 
-use super::{Caps, sag, triangulate};
+use super::{Caps, Outline, sag, triangulate};
 use crate::Ellipsoid;
 
 const ELLIPSOIDS: [Ellipsoid; 3] = [

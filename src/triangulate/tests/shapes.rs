@@ -168,6 +168,27 @@ fn chords_that_cross_by_metres_stay_within_the_sag_limit() {
 }
 
 #[test]
+fn horns_that_end_opposite_the_middle() {
+    for gap in [0.01, 1e-6, 1e-9, 1e-16] {
+        let bulb = |half: f64| (1..150).map(move |k| polar(0.05, half + f64::from(k) * PI / 150.0));
+        let tip = |half: f64| [polar(PI - gap, half)];
+        let corners: Vec<_> = bulb(0.0)
+            .chain(tip(PI))
+            .chain(bulb(PI))
+            .chain(tip(0.0))
+            .collect();
+        for_all(&[densified(&corners)], |case| {
+            case.check();
+            // An edge through the projection point would leave the inside ambiguous.
+            let outline = Outline::new(case.ellipsoid, &case.vertices, &case.loops);
+            let (centre, radius_rad) = outline.bounding_cap();
+            let pole = -outline.chart(centre, radius_rad).centre();
+            assert!(outline.points.iter().all(|p| p.distance(pole) > 0.3));
+        });
+    }
+}
+
+#[test]
 fn a_thousand_holes() {
     let mut shape = vec![circle(1.2, 500)];
     for k in 0..1000 {
