@@ -51,7 +51,7 @@ pub(crate) struct Caps {
 /// `vertices.len()` on.
 ///
 /// The signed boundary of the triangles, equal positions being one vertex, is exactly the directed
-/// edges of the loops, whether or not chords cross. No triangle of area sags more than
+/// edges of the loops, whether or not chords cross. No triangle sags more than
 /// [`SAG_LIMIT_RAD`] allows (1.3 km on Earth) if no chord is longer than 2° of arc.
 pub(crate) fn triangulate(ellipsoid: Ellipsoid, vertices: &[DVec3], loops: &[Vec<u32>]) -> Caps {
     if loops.is_empty() {
