@@ -24,6 +24,8 @@ pub(crate) struct Recorder<'a> {
     pub prepared: Prepared,
     pub targets: &'a Targets,
     pub meshes: Vec<Drawn<'a>>,
+    /// Takes the pipeline statistics of each pass.
+    pub statistics: Option<&'a wgpu::QuerySet>,
 }
 
 /// The pipelines that counting a layer needs.
@@ -153,6 +155,7 @@ impl Recorder<'_> {
             stencil_ops: None,
         };
         let mut pass = begin(encoder, "globefill count", Some(target), read_only);
+        self.begin_statistics(&mut pass, index as u32);
         let count = |input| Key::Count {
             input,
             planes: self.targets.key.planes[index],
@@ -179,6 +182,19 @@ impl Recorder<'_> {
                     pass.draw_indexed(run.indices.clone(), 0, run.arc..run.arc + 1);
                 }
             }
+        }
+        self.end_statistics(&mut pass);
+    }
+
+    fn begin_statistics(&self, pass: &mut wgpu::RenderPass<'_>, index: u32) {
+        if let Some(queries) = self.statistics {
+            pass.begin_pipeline_statistics_query(queries, index);
+        }
+    }
+
+    fn end_statistics(&self, pass: &mut wgpu::RenderPass<'_>) {
+        if self.statistics.is_some() {
+            pass.end_pipeline_statistics_query();
         }
     }
 
@@ -233,9 +249,11 @@ impl Recorder<'_> {
             }),
         };
         let mut pass = begin(encoder, "globefill copy depth", None, cleared);
+        self.begin_statistics(&mut pass, 0);
         pass.set_pipeline(self.pipelines.get(Key::CopyDepth));
         pass.set_bind_group(0, &group, &[]);
         pass.draw(0..3, 0..1);
+        self.end_statistics(&mut pass);
     }
 
     fn record_stencil(
@@ -255,6 +273,8 @@ impl Recorder<'_> {
         };
         // Counting writes no colour but keeps the targets attached: one pass serves all fills.
         let mut pass = begin(encoder, "globefill stencil", Some(target), attachment);
+        // The first query belongs to the copy of the depth.
+        self.begin_statistics(&mut pass, index as u32 + 1);
         pass.set_stencil_reference(ONE_COUNTED);
         for drawn in &self.meshes {
             pass.set_bind_group(0, &drawn.view.frame_group, &[]);
@@ -264,6 +284,7 @@ impl Recorder<'_> {
                 }
             }
         }
+        self.end_statistics(&mut pass);
     }
 
     fn draw_volume(

@@ -15,7 +15,9 @@ pub struct FrameStats {
     pub technique: CountTechnique,
     /// Layers of mutually disjoint fills.
     pub layers: u32,
-    /// Draw calls, in both passes.
+    /// Render passes that `count` records.
+    pub passes: u32,
+    /// Draw calls, of `count` and `resolve`.
     pub draws: u32,
     /// Vertices submitted to the vertex stage (before any vertex cache).
     pub vertices: u64,

@@ -210,6 +210,29 @@ impl Renderer {
         encoder: &mut wgpu::CommandEncoder,
         depth: &wgpu::TextureView,
     ) {
+        self.record_count(view, encoder, depth, None);
+    }
+
+    /// Like [`count`](Self::count), with the pipeline statistics of the k-th counting pass written to
+    /// the k-th of `queries`, of which there must be [`FrameStats::passes`]. Needs
+    /// `PIPELINE_STATISTICS_QUERY`.
+    pub fn count_measured(
+        &self,
+        view: &View,
+        encoder: &mut wgpu::CommandEncoder,
+        depth: &wgpu::TextureView,
+        queries: &wgpu::QuerySet,
+    ) {
+        self.record_count(view, encoder, depth, Some(queries));
+    }
+
+    fn record_count(
+        &self,
+        view: &View,
+        encoder: &mut wgpu::CommandEncoder,
+        depth: &wgpu::TextureView,
+        statistics: Option<&wgpu::QuerySet>,
+    ) {
         let (Some(prepared), Some(targets)) = (view.prepared, &view.targets) else {
             return;
         };
@@ -229,6 +252,7 @@ impl Renderer {
             prepared,
             targets,
             meshes,
+            statistics,
         };
         recorder.record(encoder, depth);
     }
@@ -432,8 +456,10 @@ impl Renderer {
             .map_or(0, |targets| targets.layers.len() as u32);
         // Resolve draws a triangle a layer; the stencil copies the depth once.
         stats.draws += stats.layers;
+        stats.passes = stats.layers;
         if prepared.technique == CountTechnique::Stencil && stats.layers > 0 {
             stats.draws += 1;
+            stats.passes += 1;
         }
     }
 }

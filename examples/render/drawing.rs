@@ -7,6 +7,7 @@ use globefill::{
 use crate::{
     gpu::Gpu,
     ground::{Ground, GroundPipelines},
+    invocations::{InvocationQueries, Invocations},
     targets::Targets,
 };
 
@@ -73,12 +74,14 @@ impl Drawing {
         gpu.run(encoder)
     }
 
-    /// Draws ground and fills and waits for them.
+    /// Draws ground and fills and waits for them. `queries`, if any, take the statistics of the fills'
+    /// passes: as many as the frame's [`FrameStats::passes`], and one for the resolve.
     pub fn draw(
         &mut self,
         gpu: &Gpu,
         ground: &Ground,
         frame: &Frame,
+        queries: Option<&InvocationQueries>,
     ) -> Result<FrameStats, String> {
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         self.targets
@@ -87,17 +90,47 @@ impl Drawing {
             .renderer
             .prepare(&gpu.queue, &mut self.view, frame)
             .map_err(|error| error.to_string())?;
-        self.renderer
-            .count(&self.view, &mut encoder, &self.targets.depth_view);
+        let depth = &self.targets.depth_view;
+        match queries {
+            Some(queries) => {
+                self.renderer
+                    .count_measured(&self.view, &mut encoder, depth, &queries.set);
+            }
+            None => self.renderer.count(&self.view, &mut encoder, depth),
+        }
         {
             let load = match self.background {
                 Background::Ground => wgpu::LoadOp::Load,
                 Background::Nothing => wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
             };
             let mut pass = self.targets.fill_pass(&mut encoder, load);
+            if let Some(queries) = queries {
+                pass.begin_pipeline_statistics_query(&queries.set, queries.last());
+            }
             self.renderer.resolve(&self.view, &mut pass);
+            if queries.is_some() {
+                pass.end_pipeline_statistics_query();
+            }
+        }
+        if let Some(queries) = queries {
+            queries.resolve(&mut encoder);
         }
         gpu.run(encoder)?;
         Ok(stats)
+    }
+
+    /// What the fills make the adapter do; `None` where it cannot tell.
+    pub fn invocations(
+        &mut self,
+        gpu: &Gpu,
+        ground: &Ground,
+        frame: &Frame,
+        passes: u32,
+    ) -> Result<Option<Invocations>, String> {
+        let Some(queries) = InvocationQueries::new(gpu, passes + 1) else {
+            return Ok(None);
+        };
+        self.draw(gpu, ground, frame, Some(&queries))?;
+        queries.read(gpu).map(Some)
     }
 }

@@ -71,7 +71,8 @@ impl Gpu {
         self.wait()
     }
 
-    fn wait(&self) -> Result<(), String> {
+    /// Waits until the GPU has finished what was submitted.
+    pub fn wait(&self) -> Result<(), String> {
         self.device
             .poll(wgpu::PollType::wait_indefinitely())
             .map(|_| ())

@@ -9,6 +9,7 @@ mod globe;
 mod gpu;
 mod ground;
 mod host_view;
+mod invocations;
 mod measure;
 mod output;
 mod palette;

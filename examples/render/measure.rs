@@ -73,7 +73,7 @@ pub fn times(
         drawing.draw_ground(gpu, ground)?;
         let ground_ms = start.elapsed().as_secs_f64() * 1e3;
         let start = Instant::now();
-        stats = drawing.draw(gpu, ground, frame)?;
+        stats = drawing.draw(gpu, ground, frame, None)?;
         let frame_ms = start.elapsed().as_secs_f64() * 1e3;
         if index >= WARM_UP {
             without.push(ground_ms);

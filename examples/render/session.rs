@@ -178,7 +178,7 @@ impl Work<'_> {
             },
         )?;
         let frame = self.frame();
-        let first = drawing.draw(&self.gpu, &self.ground, &frame)?;
+        let first = drawing.draw(&self.gpu, &self.ground, &frame, None)?;
         if let Some(path) = &self.arguments.out {
             let texels = self.gpu.read_texture(&drawing.targets.color)?;
             outputs.add(path, pictures::png_rgb(self.arguments.size, &texels)?);
@@ -196,6 +196,7 @@ impl Work<'_> {
             self.arguments.frames,
             || self.progress.advance(),
         )?;
+        let invocations = drawing.invocations(&self.gpu, &self.ground, &frame, first.passes)?;
         let stats = json!({
             "fills": first.fills,
             "drawn": first.drawn,
@@ -208,8 +209,8 @@ impl Work<'_> {
             "refined_chords": first.refined_chords,
             "layers": first.layers,
             "steady_upload_bytes": times.stats.upload_bytes,
-            "vertex_invocations": null,
-            "fragment_invocations": null,
+            "vertex_invocations": invocations.as_ref().map(|counted| counted.vertex),
+            "fragment_invocations": invocations.as_ref().map(|counted| counted.fragment),
             "frame_ms": times.frame_ms,
             "globe_ms": times.globe_ms,
             "frames": self.arguments.frames,
@@ -240,7 +241,7 @@ impl Work<'_> {
             Background::Nothing,
             measure::identity_style,
         )?;
-        drawing.draw(&self.gpu, &self.ground, &self.frame())?;
+        drawing.draw(&self.gpu, &self.ground, &self.frame(), None)?;
         let identities = measure::identities(&self.gpu, &drawing)?;
         if let Some(path) = mask {
             let covered: Vec<u8> = identities
