@@ -46,6 +46,11 @@ impl Edge {
         }
     }
 
+    /// Whether the edge is also an edge of `kind` between its ends.
+    pub(crate) fn is_also(&self, kind: EdgeKind) -> bool {
+        self.kind == kind || self.kind == plainest_kind(kind, self.start, self.end)
+    }
+
     /// Signed difference in longitude, lattice steps.
     pub(crate) fn turn(&self) -> i64 {
         self.end.lon - self.start.lon
@@ -149,6 +154,7 @@ impl BoundaryGraph {
         let turn = wrap(start.lon) - start.lon;
         let start = LatticePoint::new(start.lon + turn, start.lat);
         let end = LatticePoint::new(end.lon + turn, end.lat);
+        let kind = plainest_kind(kind, start, end);
         let directed = Edge {
             from,
             to,
@@ -195,6 +201,18 @@ impl BoundaryGraph {
 
     pub(crate) fn position(&self, node: u32) -> LonLat {
         self.nodes[node as usize].lon_lat()
+    }
+}
+
+/// Meridians, the equator and, for rhumbs, all parallels are straight on the lon/lat plane too: as
+/// straight edges they are met exactly, and found by neighbours of another kind.
+fn plainest_kind(kind: EdgeKind, start: LatticePoint, end: LatticePoint) -> EdgeKind {
+    let on_meridian = start.lon == end.lon;
+    let on_parallel = start.lat == end.lat;
+    match kind {
+        EdgeKind::Geodesic if on_meridian || on_parallel && start.lat == 0 => EdgeKind::Straight,
+        EdgeKind::Rhumb if on_meridian || on_parallel => EdgeKind::Straight,
+        kind => kind,
     }
 }
 

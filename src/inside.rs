@@ -34,7 +34,7 @@ impl Side {
 
 /// Directs a polygon's components by the inside rule.
 ///
-/// The shell's largest component is directed by `inside`. Other parts of the shell follow the
+/// The component of the shell that encloses most is directed by `inside`. Other parts of the shell follow the
 /// even-odd rule. Of a hole, the side away from the shell is removed; a hole outside the shell, or
 /// within another hole, removes nothing and is dropped. With no shell left, holes are cut out of
 /// the whole globe, their smaller side each.
@@ -56,9 +56,13 @@ pub(crate) fn direct(
         })
         .collect();
     let half_m2 = 0.5 * authalic.globe_m2();
+    let smaller_m2 = |side: &Side| {
+        let left_m2 = authalic.left_m2(side.enclosed);
+        left_m2.min(authalic.globe_m2() - left_m2)
+    };
     let main = (0..sides.len())
         .filter(|&index| sides[index].component.from_shell)
-        .max_by_key(|&index| sides[index].component.edges().count());
+        .max_by(|&a, &b| smaller_m2(&sides[a]).total_cmp(&smaller_m2(&sides[b])));
     let Some(main) = main else {
         for side in &mut sides {
             if authalic.left_m2(side.enclosed) < half_m2 {

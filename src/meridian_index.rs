@@ -141,7 +141,7 @@ mod tests {
             assert_eq!(separating(180.0, 10.0), [0, 1]);
             assert_eq!(separating(-171.0, 1.0), [0, 1]);
             assert_eq!(separating(-171.0, -1.0), [1]);
-            assert_eq!(separating(0.5, 85.0), []);
+            assert_eq!(separating(0.5, 85.0), [0; 0]);
             assert_eq!(separating(30.0, 69.0), [1, 2]);
             assert_eq!(separating(30.0, 88.0), [2]);
         }

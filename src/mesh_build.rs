@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use crate::{
     arcs::{Chain, EdgeSides, chains},
     authalic::Authalic,
-    boundary_graph::BoundaryGraph,
+    boundary_graph::{BoundaryGraph, DirectedEdge},
     densify::{DenseChain, densify},
     ellipsoid::Ellipsoid,
     error::RegionError,
@@ -17,7 +17,7 @@ use crate::{
     overlaps::overlaps,
     region::{EdgeKind, Polygon, Region},
     repair::{Place, Repair},
-    rings::walk_ring,
+    rings::{RingWalk, walk_ring},
     simple_loops::{Component, even_odd_components},
     triangulate::{Caps, triangulate},
 };
@@ -157,7 +157,13 @@ fn simple_polygons(graph: &BoundaryGraph, polygons: &[PolygonWalk]) -> Vec<bool>
         .map(|(polygon, walk)| {
             let mut edges = walk.rings.iter().flat_map(|ring| &ring.edges);
             let visit = polygon as u32;
-            walk.rings.iter().all(|ring| ring.edges.len() > 1)
+            // One edge there and back visits no node twice.
+            let is_ring = |ring: &RingWalk| match ring.edges[..] {
+                [] => false,
+                [there, back] => there.edge() != back.edge(),
+                _ => true,
+            };
+            walk.rings.iter().all(is_ring)
                 && edges.all(|&edge| {
                     let node = graph.start_node(edge) as usize;
                     std::mem::replace(&mut last_visit[node], visit) != visit
@@ -167,7 +173,7 @@ fn simple_polygons(graph: &BoundaryGraph, polygons: &[PolygonWalk]) -> Vec<bool>
 }
 
 fn rings_as_components(walk: &PolygonWalk) -> Vec<Component> {
-    let component = |(index, ring): (usize, &crate::rings::RingWalk)| Component {
+    let component = |(index, ring): (usize, &RingWalk)| Component {
         loops: vec![ring.edges.clone()],
         from_shell: index == 0,
     };
@@ -440,10 +446,7 @@ impl VertexRuns {
     }
 
     /// The vertices of an edge as it is walked.
-    fn along(
-        &self,
-        edge: crate::boundary_graph::DirectedEdge,
-    ) -> impl Iterator<Item = u32> + use<> {
+    fn along(&self, edge: DirectedEdge) -> impl Iterator<Item = u32> + use<> {
         let (from, to) = self.edge[edge.edge() as usize];
         let (from, to) = if edge.is_forward() {
             (from, to)
@@ -455,11 +458,7 @@ impl VertexRuns {
     }
 
     /// The vertices of a loop, one for each position.
-    fn loop_vertices(
-        &self,
-        graph: &BoundaryGraph,
-        edges: &[crate::boundary_graph::DirectedEdge],
-    ) -> Vec<u32> {
+    fn loop_vertices(&self, graph: &BoundaryGraph, edges: &[DirectedEdge]) -> Vec<u32> {
         let mut vertices = Vec::with_capacity(edges.len());
         for &edge in edges {
             let (from, to) = self.edge[edge.edge() as usize];
