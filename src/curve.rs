@@ -109,6 +109,9 @@ impl Curve {
     }
 }
 
+/// Bounds are not sharpened below this, metres.
+const COARSE_M: f64 = 0.02;
+
 /// The longitude brought to (−180°, 180°], kept at the poles, no negative zero.
 fn in_turn(position: LonLat) -> LonLat {
     let turned_deg = wrap_deg(position.lon_deg);
@@ -250,13 +253,15 @@ impl CurveOn {
     /// either end is the geodetic normal there.
     ///
     /// Infinite where a piece is too long to say: more than 90° of longitude or arc. Proven for
-    /// flattenings up to 1/50. Seldom more than twice the true deviation, plus 0.01 m × (piece/2°)⁵.
+    /// flattenings up to 1/50. Seldom more than twice the true deviation plus 0.02 m; the latter
+    /// falls with the cube of the piece's length below 0.3°.
     ///
     /// *Proof.* Let f be the distance from the plane through the chord that holds the mean normal,
     /// and p the quartic through f at 0, ¼, ½, ¾, 1 of the piece. As f vanishes at both ends,
     /// p = x(1−x)·q with q quadratic, so |p| ≤ ¼·max|Bernstein coefficients of q|; and |f − p| ≤
-    /// max|f⁽⁵⁾|/5!·0.00355, the last factor being the maximum of |x(x−¼)(x−½)(x−¾)(x−1)|. The
-    /// derivative is bounded per kind in [`Self::fifth_derivative`]. To this the twist of the ruled
+    /// max|f⁽⁵⁾|/5!·0.00355, the last factor being the maximum of |x(x−¼)(x−½)(x−¾)(x−1)|. Short
+    /// pieces make do with the parabola through f at 0, ½, 1 and max|f‴|/3!·0.0482. The
+    /// derivatives are bounded per kind in [`Self::derivative_bound`]. To this the twist of the ruled
     /// surface out of that plane is added, up to the height where it meets the ellipsoid.
     pub fn deviation_bound_m(&self, t0: f64, t1: f64) -> f64 {
         let (start, end) = (self.ecef(t0), self.ecef(t1));
@@ -273,18 +278,24 @@ impl CurveOn {
         let across = across.normalize();
 
         let distance_at = |x: f64| (self.ecef(t0 + x * share) - start).dot(across);
-        let q = [
-            distance_at(0.25) * (16.0 / 3.0),
-            distance_at(0.5) * 4.0,
-            distance_at(0.75) * (16.0 / 3.0),
-        ];
-        let (first, last) = (
-            3.0 * q[0] - 3.0 * q[1] + q[2],
-            q[0] - 3.0 * q[1] + 3.0 * q[2],
-        );
-        let middle = 2.0 * q[1] - 0.5 * (first + last);
-        let quartic_m = 0.25 * first.abs().max(middle.abs()).max(last.abs());
-        let remainder_m = self.fifth_derivative(share) * (0.003_55 / 120.0);
+        let middle_m = distance_at(0.5);
+        let cubic_m = self.derivative_bound(share, 3) * (0.048_2 / 6.0);
+        let beside_plane_m = if cubic_m < COARSE_M {
+            middle_m.abs() + cubic_m
+        } else {
+            let q = [
+                distance_at(0.25) / 0.1875,
+                middle_m / 0.25,
+                distance_at(0.75) / 0.1875,
+            ];
+            let (first, last) = (
+                3.0 * q[0] - 3.0 * q[1] + q[2],
+                q[0] - 3.0 * q[1] + 3.0 * q[2],
+            );
+            let middle = 2.0 * q[1] - 0.5 * (first + last);
+            let quartic_m = 0.25 * first.abs().max(middle.abs()).max(last.abs());
+            quartic_m + self.derivative_bound(share, 5) * (0.003_55 / 120.0)
+        };
 
         let sag_m = self.ellipsoid.chord_sag_m(chord.length());
         let twist_m = 0.5 * (end_normal - start_normal).dot(across).abs() * sag_m;
@@ -294,12 +305,12 @@ impl CurveOn {
             .dot(across)
             .abs()
             .max(end_normal.dot(across).abs());
-        (quartic_m + remainder_m + twist_m + rounding_m) * 1.001 / (1.0 - tilt * tilt).sqrt()
+        (beside_plane_m + twist_m + rounding_m) * 1.001 / (1.0 - tilt * tilt).sqrt()
     }
 
-    /// Bound, metres, on the length of the position's fifth derivative by x, which runs from 0 to 1
-    /// over a `share` of the curve.
-    fn fifth_derivative(&self, share: f64) -> f64 {
+    /// Bound, metres, on the length of the position's third or fifth derivative by x, which runs
+    /// from 0 to 1 over a `share` of the curve.
+    fn derivative_bound(&self, share: f64, order: i32) -> f64 {
         let Curve {
             from, to, turn_deg, ..
         } = self.curve;
@@ -311,19 +322,20 @@ impl CurveOn {
             // √2. The ellipsoid adds e²/8·3⁵ at the third harmonic; 3 covers both up to f = 1/50.
             Course::Linear => {
                 let rise = ((to.lat_deg - from.lat_deg) * share).to_radians().abs();
-                3.0 * a_m * (turn + rise).powi(5)
+                3.0 * a_m * (turn + rise).powi(order)
             }
             // (sech ψ cos λ, sech ψ sin λ, tanh ψ) is analytic in |Im ψ| < π/2. On the circle of
             // radius 1/(|Δλ| + |Δψ|) about x it stays below 4.1 (|sech|, |tanh| ≤ 1/cos 1 = 1.85,
             // √(|cos|² + |sin|²) ≤ 1.94), on the ellipsoid below 8; Cauchy's inequality does the rest.
             Course::Rhumb(rhumb) => {
                 let climb = (rhumb.difference * share).abs();
-                120.0 * 8.0 * a_m * (turn + climb).powi(5)
+                let factorial = if order == 3 { 6.0 } else { 120.0 };
+                factorial * 8.0 * a_m * (turn + climb).powi(order)
             }
-            // On the sphere (s/R)⁵; what the ellipsoid adds is of the order e².
+            // On the sphere (s/R)ⁿ; what the ellipsoid adds is of the order e².
             Course::Geodesic(geodesic) => {
                 let b_m = self.ellipsoid.a_m.min(self.ellipsoid.b_m);
-                3.0 * a_m * (geodesic.length_m * share / b_m).powi(5)
+                3.0 * a_m * (geodesic.length_m * share / b_m).powi(order)
             }
         }
     }

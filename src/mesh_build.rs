@@ -47,11 +47,15 @@ pub(crate) fn build(regions: &[Region], options: &MeshOptions) -> Result<FillMes
     let pieces: Vec<Boundary> = boundaries.into_iter().flatten().collect();
     let sides = EdgeSides::new(&graph, &pieces);
     let crossing = crossing_pieces(crossing, &piece_of_polygon);
-    mesh.overlaps = overlaps(&ellipsoid, &graph, &sides, &pieces, crossing);
-
-    let chains = chains(&graph, &sides, &pieces);
-    let vertex_runs = mesh.add_arcs(&graph, &chains, options.tolerance_m);
-    mesh.add_caps(&graph, &pieces, &vertex_runs);
+    let (overlaps, ()) = rayon::join(
+        || overlaps(&ellipsoid, &graph, &sides, &pieces, crossing),
+        || {
+            let chains = chains(&graph, &sides, &pieces);
+            let vertex_runs = mesh.add_arcs(&graph, &chains, options.tolerance_m);
+            mesh.add_caps(&graph, &pieces, &vertex_runs);
+        },
+    );
+    mesh.overlaps = overlaps;
     Ok(mesh)
 }
 
@@ -192,14 +196,14 @@ fn spans_globe(ring: &[LonLat]) -> bool {
     area.abs() > std::f64::consts::TAU
 }
 
-fn crossing_pieces(
-    crossing: PolygonPairs,
-    piece_of_polygon: &[Option<u32>],
-) -> impl Iterator<Item = (u32, u32)> {
-    crossing.into_iter().filter_map(|(a, b)| {
-        let [a, b] = [a, b].map(|polygon| piece_of_polygon[polygon as usize]);
-        a.zip(b)
-    })
+fn crossing_pieces(crossing: PolygonPairs, piece_of_polygon: &[Option<u32>]) -> Vec<(u32, u32)> {
+    crossing
+        .into_iter()
+        .filter_map(|(a, b)| {
+            let [a, b] = [a, b].map(|polygon| piece_of_polygon[polygon as usize]);
+            a.zip(b)
+        })
+        .collect()
 }
 
 /// Where the vertices of the graph's nodes and edges are in the mesh.
@@ -276,6 +280,7 @@ impl FillMesh {
             let copy = self.copy_of(graph, chain, &runs);
             self.add_arc(chain, &copy);
         }
+        self.bound_arcs();
         runs
     }
 
@@ -289,11 +294,7 @@ impl FillMesh {
             vertex_count: dense.vertices.len() as u32,
             left: Some(chain.left),
             right: chain.right,
-            bounds: Bounds::around(
-                &self.ellipsoid,
-                dense.vertices.iter().copied(),
-                edge_margin_m(&self.ellipsoid, dense),
-            ),
+            bounds: Bounds::default(),
         });
         self.vertices.extend_from_slice(&dense.vertices);
         self.curves.extend_from_slice(&dense.curves);
@@ -302,6 +303,16 @@ impl FillMesh {
                 curve: first_curve + vertex.curve,
                 ..*vertex
             }));
+    }
+
+    fn bound_arcs(&mut self) {
+        let (ellipsoid, vertices, boundary) = (self.ellipsoid, &self.vertices, &self.boundary);
+        self.arcs.par_iter_mut().for_each(|arc| {
+            let run = arc.first_vertex as usize..(arc.first_vertex + arc.vertex_count) as usize;
+            let margin_m =
+                edge_margin_m(&ellipsoid, &vertices[run.clone()], &boundary[run.clone()]);
+            arc.bounds = Bounds::around(&ellipsoid, vertices[run].iter().copied(), margin_m);
+        });
     }
 
     /// A chain's vertices from the arcs that run along the same edges already: bit for bit the same
@@ -398,7 +409,7 @@ impl FillMesh {
         }
     }
 
-    /// How far the true edges may lie beside the great arcs of the scaled sphere between vertices.
+    /// [`edge_margin_m`] of all arcs together.
     fn arcs_margin_m(&self) -> f64 {
         let deviation_m = self
             .boundary
@@ -409,13 +420,17 @@ impl FillMesh {
     }
 }
 
-fn edge_margin_m(ellipsoid: &Ellipsoid, dense: &DenseChain) -> f64 {
-    let deviation_m = dense
-        .boundary
+/// How far true edges may lie beside the great arcs of the scaled sphere between their vertices.
+fn edge_margin_m(ellipsoid: &Ellipsoid, vertices: &[DVec3], boundary: &[BoundaryVertex]) -> f64 {
+    let deviation_m = boundary
         .iter()
         .map(|vertex| vertex.deviation_m)
         .fold(0.0, f32::max);
-    f64::from(deviation_m) + skew_m(ellipsoid, ellipsoid.chord_sag_m(dense.longest_chord_m))
+    let chord_m = vertices
+        .windows(2)
+        .map(|pair| pair[0].distance(pair[1]))
+        .fold(0.0, f64::max);
+    f64::from(deviation_m) + skew_m(ellipsoid, ellipsoid.chord_sag_m(chord_m))
 }
 
 /// How far a wall along geodetic normals and one through the centre part, over the height `sag_m`
