@@ -17,6 +17,8 @@ pub(crate) struct Boundary {
     pub(crate) loops: Vec<Vec<DirectedEdge>>,
     /// What they enclose together.
     pub(crate) enclosed: Enclosed,
+    /// Rings that were dropped because they remove nothing.
+    pub(crate) idle_holes: Vec<usize>,
 }
 
 /// A component, and what lies to its left.
@@ -61,7 +63,7 @@ pub(crate) fn direct(
         left_m2.min(authalic.globe_m2() - left_m2)
     };
     let main = (0..sides.len())
-        .filter(|&index| sides[index].component.from_shell)
+        .filter(|&index| !sides[index].component.is_hole())
         .max_by(|&a, &b| smaller_m2(&sides[a]).total_cmp(&smaller_m2(&sides[b])));
     let Some(main) = main else {
         for side in &mut sides {
@@ -78,13 +80,13 @@ pub(crate) fn direct(
         return gather(sides.into_iter());
     }
     let kept = direct_others(ellipsoid, graph, &mut sides, main);
-    gather(
-        sides
-            .into_iter()
-            .zip(kept)
-            .filter(|(_, kept)| *kept)
-            .map(|(side, _)| side),
-    )
+    let idle_holes = sides.iter().zip(&kept).filter(|(_, kept)| !**kept);
+    let idle_holes = idle_holes.map(|(side, _)| side.component.ring).collect();
+    let kept = sides.into_iter().zip(kept).filter(|(_, kept)| *kept);
+    Boundary {
+        idle_holes,
+        ..gather(kept.map(|(side, _)| side))
+    }
 }
 
 fn gather(sides: impl Iterator<Item = Side>) -> Boundary {
@@ -129,13 +131,13 @@ fn direct_others(
             {
                 continue;
             }
-            if sides[between].component.from_shell {
+            if !sides[between].component.is_hole() {
                 facing_inside = !facing_inside;
             } else {
                 hole_between = true;
             }
         }
-        if !sides[own].component.from_shell && (hole_between || !facing_inside) {
+        if sides[own].component.is_hole() && (hole_between || !facing_inside) {
             kept[own] = false;
             continue;
         }

@@ -16,7 +16,7 @@ use crate::{
     noding::{PolygonPairs, PolygonWalk, node_boundaries},
     overlaps::overlaps,
     region::{EdgeKind, Polygon, Region},
-    repair::{Place, Repair},
+    repair::{Place, Repair, RepairKind},
     rings::{RingWalk, walk_ring},
     simple_loops::{Component, even_odd_components},
     triangulate::{Caps, triangulate},
@@ -134,12 +134,18 @@ fn bound_polygons(
             } else {
                 even_odd_components(ellipsoid, graph, walk, &mut repairs)
             };
-            let shell_is_left = components.iter().any(|component| component.from_shell);
+            let shell_is_left = components.iter().any(|component| !component.is_hole());
             let shell = &region.polygons[walk.place.polygon].shell;
             let is_globe =
                 !shell_is_left && region.edges == EdgeKind::Straight && spans_globe(shell);
             let boundary = (shell_is_left || is_globe)
                 .then(|| direct(ellipsoid, graph, &authalic, components, region.inside));
+            for &ring in boundary.iter().flat_map(|boundary| &boundary.idle_holes) {
+                repairs.push(Repair {
+                    place: Place { ring, ..walk.place },
+                    kind: RepairKind::IdleHole,
+                });
+            }
             (boundary, repairs)
         })
         .collect();
@@ -179,7 +185,7 @@ fn simple_polygons(graph: &BoundaryGraph, polygons: &[PolygonWalk]) -> Vec<bool>
 fn rings_as_components(walk: &PolygonWalk) -> Vec<Component> {
     let component = |(index, ring): (usize, &RingWalk)| Component {
         loops: vec![ring.edges.clone()],
-        from_shell: index == 0,
+        ring: index,
     };
     walk.rings.iter().enumerate().map(component).collect()
 }
