@@ -15,25 +15,31 @@ fn winding(weight: vec4<f32>, front_facing: bool) -> vec4<f32> {
 
 // One target with as many channels as the code has planes.
 @fragment
-fn fs_count_packed(face: Face, @builtin(front_facing) front_facing: bool) -> @location(0) vec4<f32> {
-    return winding(face.weight, front_facing);
+fn fs_count_packed(
+    @location(0) @interpolate(flat) weight: vec4<f32>,
+    @builtin(front_facing) front_facing: bool,
+) -> @location(0) vec4<f32> {
+    return winding(weight, front_facing);
 }
 
 // One single-channel target a plane: 32-bit floats with more channels cannot be multisampled.
 @fragment
-fn fs_count_separate(face: Face, @builtin(front_facing) front_facing: bool) -> Planes {
-    let sum = winding(face.weight, front_facing);
+fn fs_count_separate(
+    @location(0) @interpolate(flat) weight: vec4<f32>,
+    @builtin(front_facing) front_facing: bool,
+) -> Planes {
+    let sum = winding(weight, front_facing);
     return Planes(sum.x, sum.y, sum.z, sum.w);
 }
 
 // Painting the code of one fill where the stencil counted.
 @fragment
-fn fs_cover_packed(face: Face) -> @location(0) vec4<f32> {
-    return abs(face.weight);
+fn fs_cover_packed(@location(0) @interpolate(flat) weight: vec4<f32>) -> @location(0) vec4<f32> {
+    return abs(weight);
 }
 
 @fragment
-fn fs_cover_separate(face: Face) -> Planes {
-    let code = abs(face.weight);
+fn fs_cover_separate(@location(0) @interpolate(flat) weight: vec4<f32>) -> Planes {
+    let code = abs(weight);
     return Planes(code.x, code.y, code.z, code.w);
 }

@@ -18,6 +18,7 @@ struct Frame {
     // w: the most that z and slack may add, m.
     heights: vec4<f32>,
     // Added above and below for the host's depth steps: x + y * distance + z * distance^2, m.
+    // w: distance of the near plane, m.
     slack: vec4<f32>,
 }
 
@@ -26,16 +27,24 @@ const BOTTOM: u32 = 0u;
 const TOP: u32 = 1u;
 const AS_IS: u32 = 2u;
 
-// In `arc_of`: a slot between two arcs, which holds no vertex.
-const BREAK: u32 = 0xffffffffu;
+// A boundary arc. Its slots hold its vertices; one more, the break, separates it from the next.
+struct Arc {
+    // Pieces on either side, plus one; 0 for none.
+    left: u32,
+    right: u32,
+    // The slot behind its last vertex: the break.
+    break_slot: u32,
+}
+
+// Boundary slots that share an entry of `arc_at`.
+const BLOCK: u32 = 16u;
 
 @group(0) @binding(0) var<uniform> frame: Frame;
 // Fixed point: xyz in 1/128 m, w three 10-bit fractions of 2^-17 m (x lowest).
 @group(1) @binding(0) var<storage, read> vertices: array<vec4<i32>>;
-// The arc of each boundary slot.
-@group(1) @binding(1) var<storage, read> arc_of: array<u32>;
-// Left and right piece of each arc, plus one; 0 for none.
-@group(1) @binding(2) var<storage, read> arcs: array<vec2<u32>>;
+// The arc of the first slot of every block of boundary slots.
+@group(1) @binding(1) var<storage, read> arc_at: array<u32>;
+@group(1) @binding(2) var<storage, read> arcs: array<Arc>;
 // Winding code of each piece, plus one, in this view and layer; four digits of 8 bits.
 @group(1) @binding(3) var<storage, read> codes: array<u32>;
 
@@ -77,28 +86,29 @@ fn digits_of(code: u32) -> vec4<f32> {
 }
 
 fn arc_weight(arc: u32) -> vec4<f32> {
-    let sides = arcs[arc];
-    return code_digits(sides.x) - code_digits(sides.y);
+    return code_digits(arcs[arc].left) - code_digits(arcs[arc].right);
 }
 
-struct Face {
-    @builtin(position) @invariant position: vec4<f32>,
-    // Seen from outside the volume of the left piece.
-    @location(0) @interpolate(flat) weight: vec4<f32>,
+// The arc whose slots, or break, hold `slot`.
+fn arc_of(slot: u32) -> u32 {
+    var arc = arc_at[slot / BLOCK];
+    while arcs[arc].break_slot < slot {
+        arc += 1u;
+    }
+    return arc;
 }
 
 // Cap-only inputs. instance = 2 * piece + (1 for the bottom cap).
 @vertex
 fn vs_cap(@builtin(vertex_index) vertex: u32, @builtin(instance_index) instance: u32) -> Face {
     let bottom = (instance & 1u) == 1u;
-    var face: Face;
-    face.position = clip(vertices[vertex], select(TOP, BOTTOM, bottom));
     // The bottom cap is the same triangle seen from below.
-    face.weight = code_digits((instance >> 1u) + 1u) * select(1.0, -1.0, bottom);
-    return face;
+    let weight = code_digits((instance >> 1u) + 1u) * select(1.0, -1.0, bottom);
+    return face(vertices[vertex], select(TOP, BOTTOM, bottom), weight);
 }
 
 struct WallCorner {
+    arc: u32,
     slot: u32,
     drawn: u32,
 }
@@ -108,48 +118,37 @@ struct WallCorner {
 fn wall_corner(k: u32) -> WallCorner {
     let slot = k >> 1u;
     let top = (k & 1u) == 0u;
-    if arc_of[slot] != BREAK {
-        return WallCorner(slot, select(BOTTOM, TOP, top));
+    let arc = arc_of(slot);
+    if slot != arcs[arc].break_slot {
+        return WallCorner(arc, slot, select(BOTTOM, TOP, top));
     }
     if top {
-        return WallCorner(slot - 1u, BOTTOM);
+        return WallCorner(arc, slot - 1u, BOTTOM);
     }
-    return WallCorner(slot + 1u, TOP);
+    return WallCorner(arc, slot + 1u, TOP);
 }
 
 // Degenerate wall inputs, as a triangle strip over boundary slots.
 @vertex
 fn vs_wall(@builtin(vertex_index) k: u32) -> Face {
     let corner = wall_corner(k);
-    var face: Face;
-    face.position = clip(vertices[corner.slot], corner.drawn);
-    face.weight = arc_weight(arc_of[corner.slot]);
-    return face;
+    return face(vertices[corner.slot], corner.drawn, arc_weight(corner.arc));
 }
 
 // Refined walls: an index is 4 * vertex + how it is drawn; `vertices` is the patch's own buffer.
 @vertex
 fn vs_patch(@builtin(vertex_index) index: u32, @builtin(instance_index) arc: u32) -> Face {
-    var face: Face;
-    face.position = clip(vertices[index >> 2u], index & 3u);
-    face.weight = arc_weight(arc);
-    return face;
+    return face(vertices[index >> 2u], index & 3u, arc_weight(arc));
 }
 
 // The same walls where the stencil has counted and a single piece is to be painted.
 @vertex
 fn vs_wall_cover(@builtin(vertex_index) k: u32, @builtin(instance_index) piece: u32) -> Face {
     let corner = wall_corner(k);
-    var face: Face;
-    face.position = clip(vertices[corner.slot], corner.drawn);
-    face.weight = code_digits(piece + 1u);
-    return face;
+    return face(vertices[corner.slot], corner.drawn, code_digits(piece + 1u));
 }
 
 @vertex
 fn vs_patch_cover(@builtin(vertex_index) index: u32, @builtin(instance_index) piece: u32) -> Face {
-    var face: Face;
-    face.position = clip(vertices[index >> 2u], index & 3u);
-    face.weight = code_digits(piece + 1u);
-    return face;
+    return face(vertices[index >> 2u], index & 3u, code_digits(piece + 1u));
 }

@@ -4,16 +4,16 @@ use wgpu::util::DeviceExt as _;
 
 use crate::{fill_mesh::FillMesh, fixed_point::encode, select::slot};
 
-/// In `arc_of`: a slot between two arcs; the same in extrude.wgsl.
-const BREAK: u32 = u32::MAX;
+/// Boundary slots that share an entry of `arc_at`; the same in extrude.wgsl.
+const BLOCK: usize = 16;
 
 /// Buffers of one mesh.
 pub(crate) struct GpuMesh {
     /// Boundary slots, arc after arc with a break behind each, then the caps' interior vertices.
     pub vertices: wgpu::Buffer,
-    /// The arc of each boundary slot.
-    pub arc_of: wgpu::Buffer,
-    /// Left and right piece of each arc, plus one.
+    /// The arc of the first slot of every block of boundary slots.
+    pub arc_at: wgpu::Buffer,
+    /// Sides and break of each arc.
     pub arcs: wgpu::Buffer,
     /// Vertex indices of the cap triangles.
     pub cap_indices: wgpu::Buffer,
@@ -21,9 +21,9 @@ pub(crate) struct GpuMesh {
 
 impl GpuMesh {
     pub(crate) fn new(device: &wgpu::Device, mesh: &FillMesh) -> Self {
-        let layout = SlotLayout::new(mesh);
+        let storage = wgpu::BufferUsages::STORAGE;
         let buffer = |label, contents: &[u8], usage| {
-            // Empty bindings are not allowed: a mesh without arcs still binds one word.
+            // Empty bindings are not allowed: a mesh without arcs still binds one of each.
             let contents = if contents.is_empty() {
                 &[0; 16]
             } else {
@@ -35,27 +35,25 @@ impl GpuMesh {
                 usage,
             })
         };
-        let storage = wgpu::BufferUsages::STORAGE;
-        let arcs: Vec<[u32; 2]> = mesh
-            .arcs
-            .iter()
-            .map(|arc| [arc.left, arc.right].map(|piece| piece.map_or(0, |piece| piece + 1)))
-            .collect();
+        let vertices = vertices_in_slots(mesh);
+        let arcs = arc_records(mesh);
+        let arc_at = arc_at_blocks(&arcs);
+        let caps = cap_indices(mesh, &arcs, &arc_at);
         Self {
             vertices: buffer(
                 "globefill vertices",
-                bytemuck::cast_slice(&layout.vertices),
+                bytemuck::cast_slice(&vertices),
                 storage,
             ),
-            arc_of: buffer(
-                "globefill arc of slot",
-                bytemuck::cast_slice(&layout.arc_of),
+            arc_at: buffer(
+                "globefill arc at block",
+                bytemuck::cast_slice(&arc_at),
                 storage,
             ),
             arcs: buffer("globefill arcs", bytemuck::cast_slice(&arcs), storage),
             cap_indices: buffer(
                 "globefill caps",
-                bytemuck::cast_slice(&layout.cap_indices),
+                bytemuck::cast_slice(&caps),
                 wgpu::BufferUsages::INDEX,
             ),
         }
@@ -63,54 +61,83 @@ impl GpuMesh {
 }
 
 impl FillMesh {
-    /// Bytes that the mesh takes on the GPU: 16 a vertex, 4 more for its arc if on the boundary, 12 a
-    /// cap triangle; 28 an arc, for its sides and the break behind it. Walls take none.
+    /// Bytes that the mesh takes on the GPU: 16 a vertex, 12 a cap triangle, 28 an arc for its sides
+    /// and the break behind it, and 4 for every sixteen boundary vertices. Walls take none.
     pub fn gpu_bytes(&self) -> u64 {
         let slots = self.boundary.len() + self.arcs.len();
         let vertices = self.vertices.len() + self.arcs.len();
-        (16 * vertices + 4 * slots + 8 * self.arcs.len() + 12 * self.cap_triangles.len()) as u64
+        let blocks = slots.div_ceil(BLOCK);
+        let arcs = size_of::<ArcRecord>() * self.arcs.len();
+        (16 * vertices + arcs + 4 * blocks + 12 * self.cap_triangles.len()) as u64
     }
+}
+
+/// `Arc` of extrude.wgsl; see there.
+#[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
+#[repr(C)]
+pub(crate) struct ArcRecord {
+    pub left: u32,
+    pub right: u32,
+    pub break_slot: u32,
 }
 
 /// The mesh's vertices with a break behind each arc, so that one strip may run over many arcs.
-struct SlotLayout {
-    vertices: Vec<[i32; 4]>,
-    arc_of: Vec<u32>,
-    cap_indices: Vec<[u32; 3]>,
+fn vertices_in_slots(mesh: &FillMesh) -> Vec<[i32; 4]> {
+    let mut vertices = Vec::with_capacity(mesh.vertices.len() + mesh.arcs.len());
+    for arc in &mesh.arcs {
+        let first = arc.first_vertex as usize;
+        let of_arc = &mesh.vertices[first..first + arc.vertex_count as usize];
+        vertices.extend(of_arc.iter().copied().map(encode));
+        vertices.push([0; 4]);
+    }
+    let interior = &mesh.vertices[mesh.boundary.len()..];
+    vertices.extend(interior.iter().copied().map(encode));
+    vertices
 }
 
-impl SlotLayout {
-    fn new(mesh: &FillMesh) -> Self {
-        let boundary_count = mesh.boundary.len();
-        let slot_count = boundary_count + mesh.arcs.len();
-        let mut vertices = Vec::with_capacity(mesh.vertices.len() + mesh.arcs.len());
-        let mut arc_of = Vec::with_capacity(slot_count);
-        let mut slot_of = Vec::with_capacity(boundary_count);
-        for (index, arc) in (0..).zip(&mesh.arcs) {
-            for vertex in arc.first_vertex..arc.first_vertex + arc.vertex_count {
-                slot_of.push(slot(index, vertex));
-                vertices.push(encode(mesh.vertices[vertex as usize]));
-                arc_of.push(index);
+fn arc_records(mesh: &FillMesh) -> Vec<ArcRecord> {
+    let plus_one = |piece: Option<u32>| piece.map_or(0, |piece| piece + 1);
+    (0..)
+        .zip(&mesh.arcs)
+        .map(|(index, arc)| ArcRecord {
+            left: plus_one(arc.left),
+            right: plus_one(arc.right),
+            break_slot: slot(index, arc.first_vertex + arc.vertex_count),
+        })
+        .collect()
+}
+
+fn arc_at_blocks(arcs: &[ArcRecord]) -> Vec<u32> {
+    let slot_count = arcs.last().map_or(0, |arc| arc.break_slot as usize + 1);
+    let mut arc = 0;
+    (0..slot_count)
+        .step_by(BLOCK)
+        .map(|slot| {
+            while (arcs[arc].break_slot as usize) < slot {
+                arc += 1;
             }
-            vertices.push([0; 4]);
-            arc_of.push(BREAK);
+            arc as u32
+        })
+        .collect()
+}
+
+/// Cap triangles with every boundary vertex moved behind the breaks before it.
+fn cap_indices(mesh: &FillMesh, arcs: &[ArcRecord], arc_at: &[u32]) -> Vec<[u32; 3]> {
+    let boundary_count = mesh.boundary.len() as u32;
+    let arc_count = mesh.arcs.len() as u32;
+    let moved = |vertex: u32| {
+        if vertex >= boundary_count {
+            return vertex + arc_count;
         }
-        vertices.extend(mesh.vertices[boundary_count..].iter().copied().map(encode));
-        let arc_count = mesh.arcs.len() as u32;
-        let cap_indices = mesh
-            .cap_triangles
-            .iter()
-            .map(|triangle| {
-                triangle.map(|vertex| match slot_of.get(vertex as usize) {
-                    Some(&slot) => slot,
-                    None => vertex + arc_count,
-                })
-            })
-            .collect();
-        Self {
-            vertices,
-            arc_of,
-            cap_indices,
+        // The slot lies at or behind `vertex`: its arc is found from that block on.
+        let mut arc = arc_at[vertex as usize / BLOCK];
+        while arcs[arc as usize].break_slot <= slot(arc, vertex) {
+            arc += 1;
         }
-    }
+        slot(arc, vertex)
+    };
+    mesh.cap_triangles
+        .iter()
+        .map(|triangle| triangle.map(moved))
+        .collect()
 }

@@ -8,6 +8,10 @@ use crate::{
     shaders,
 };
 
+/// What it takes to draw into depth with a far plane, which must not clip the volumes.
+pub(crate) const FAR_PLANE_FEATURES: wgpu::Features =
+    wgpu::Features::DEPTH_CLIP_CONTROL.union(wgpu::Features::CLIP_DISTANCES);
+
 /// Depth and stencil of the stencil technique.
 pub(crate) const STENCIL_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32FloatStencil8;
 
@@ -92,6 +96,8 @@ pub(crate) struct Pipelines {
     pub resolve_layout: wgpu::BindGroupLayout,
     pub depth_layout: wgpu::BindGroupLayout,
     count_shader: wgpu::ShaderModule,
+    /// For depth with a far plane, where the device can draw that.
+    unclipped_count_shader: Option<wgpu::ShaderModule>,
     made: HashMap<Key, wgpu::RenderPipeline>,
 }
 
@@ -129,7 +135,11 @@ impl Pipelines {
                 fragment,
                 &[texture(wgpu::TextureSampleType::Depth)],
             ),
-            count_shader: shader(device, "globefill count", shaders::count()),
+            count_shader: shader(device, "globefill count", shaders::count(false)),
+            unclipped_count_shader: device
+                .features()
+                .contains(FAR_PLANE_FEATURES)
+                .then(|| shader(device, "globefill count unclipped", shaders::count(true))),
             made: HashMap::new(),
         }
     }
@@ -270,7 +280,10 @@ impl Pipelines {
 
     fn volume_recipe(&self, input: Input, entry: &'static str, unclipped: bool) -> Recipe<'_> {
         Recipe {
-            module: &self.count_shader,
+            module: match &self.unclipped_count_shader {
+                Some(module) if unclipped => module,
+                _ => &self.count_shader,
+            },
             layouts: vec![&self.frame_layout, &self.mesh_layout],
             vertex: entry,
             fragment: None,

@@ -12,7 +12,7 @@ use crate::{
     layer_tables::{LayerTables, require},
     layers::Styled,
     options::{CountTechnique, FillStyle, Frame, RendererOptions},
-    pipelines::{Input, Key, Pipelines},
+    pipelines::{FAR_PLANE_FEATURES, Input, Key, Pipelines},
     select::Selection,
     sight::Sight,
     targets::{Targets, TargetsKey},
@@ -53,11 +53,11 @@ impl Renderer {
     /// `Renderer::wanted_features() & adapter.features()`.
     ///
     /// Without `FLOAT32_BLENDABLE` winding sums are half floats and large scenes are counted by
-    /// stencil, which needs `DEPTH32FLOAT_STENCIL8`. Without `DEPTH_CLIP_CONTROL` a projection must
-    /// not have a far plane.
+    /// stencil, which needs `DEPTH32FLOAT_STENCIL8`. Without `DEPTH_CLIP_CONTROL` and
+    /// `CLIP_DISTANCES` a projection must not have a far plane.
     pub fn wanted_features() -> wgpu::Features {
         wgpu::Features::FLOAT32_BLENDABLE
-            | wgpu::Features::DEPTH_CLIP_CONTROL
+            | FAR_PLANE_FEATURES
             | wgpu::Features::DEPTH32FLOAT_STENCIL8
     }
 
@@ -190,7 +190,7 @@ impl Renderer {
             stats: FrameStats::default(),
         };
         if prepared.unclipped {
-            require(self.device.features(), wgpu::Features::DEPTH_CLIP_CONTROL)?;
+            require(self.device.features(), FAR_PLANE_FEATURES)?;
         }
         self.ensure_targets(view, frame)?;
         self.ensure_pipelines(&prepared, &selections)?;

@@ -1,6 +1,8 @@
 //! The WGSL sources, put together as the pipelines use them.
 
 const EXTRUDE: &str = include_str!("../shaders/extrude.wgsl");
+const FACE: &str = include_str!("../shaders/face.wgsl");
+const FACE_UNCLIPPED: &str = include_str!("../shaders/face_unclipped.wgsl");
 const COUNT: &str = include_str!("../shaders/count.wgsl");
 const SCREEN: &str = include_str!("../shaders/screen.wgsl");
 const COPY_DEPTH: &str = include_str!("../shaders/copy_depth.wgsl");
@@ -9,9 +11,13 @@ const PLANES_PACKED: &str = include_str!("../shaders/planes_packed.wgsl");
 const PLANES_SEPARATE: &str = include_str!("../shaders/planes_separate.wgsl");
 const RESOLVE: &str = include_str!("../shaders/resolve.wgsl");
 
-/// Extrusion and counting.
-pub fn count() -> String {
-    [EXTRUDE, COUNT].concat()
+/// Extrusion and counting; `unclipped` where depth has a far plane.
+pub fn count(unclipped: bool) -> String {
+    if unclipped {
+        ["enable clip_distances;\n", EXTRUDE, FACE_UNCLIPPED, COUNT].concat()
+    } else {
+        [EXTRUDE, FACE, COUNT].concat()
+    }
 }
 
 /// The copy of the host's depth that the stencil technique works on.
@@ -37,7 +43,8 @@ pub fn resolve(sample_count: u32) -> String {
 /// Every program with its name, for validation without a GPU.
 pub fn all() -> Vec<(&'static str, String)> {
     vec![
-        ("count", count()),
+        ("count", count(false)),
+        ("count_unclipped", count(true)),
         ("copy_depth", copy_depth(1)),
         ("copy_depth_multisampled", copy_depth(4)),
         ("resolve", resolve(1)),
@@ -49,7 +56,7 @@ pub fn all() -> Vec<(&'static str, String)> {
 mod tests {
     use std::mem::{offset_of, size_of};
 
-    use crate::{layer_tables::LayerHead, view::FrameUniform};
+    use crate::{gpu_mesh::ArcRecord, layer_tables::LayerHead, view::FrameUniform};
 
     /// Members of a WGSL struct with their offsets, bytes, and the size of the whole.
     fn layout_of(source: &str, name: &str) -> (Vec<(String, usize)>, usize) {
@@ -82,13 +89,20 @@ mod tests {
 
     #[test]
     fn the_frame_uniform_has_the_layout_of_the_shader() {
-        let (members, size) = layout_of(&super::count(), "Frame");
+        let (members, size) = layout_of(&super::count(false), "Frame");
         let expected = offsets!(
             FrameUniform: clip_from_relative, eye, eye_fraction, eye_remainder, normal_scale,
             heights, slack
         );
         assert_eq!(members, expected);
         assert_eq!(size, size_of::<FrameUniform>());
+    }
+
+    #[test]
+    fn the_arc_record_has_the_layout_of_the_shader() {
+        let (members, size) = layout_of(&super::count(false), "Arc");
+        assert_eq!(members, offsets!(ArcRecord: left, right, break_slot));
+        assert_eq!(size, size_of::<ArcRecord>());
     }
 
     #[test]

@@ -31,7 +31,7 @@ use sag::SAG_LIMIT_RAD;
 
 /// Single loops of at most this many vertices that cannot sag are clipped ear by ear, which is
 /// quadratic but has no overhead.
-const EAR_CLIP_MAX: usize = 96;
+const EAR_CLIP_MAX: usize = 64;
 
 /// The triangles that fill a piece.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -51,7 +51,7 @@ pub(crate) struct Caps {
 /// `vertices.len()` on.
 ///
 /// The signed boundary of the triangles, equal positions being one vertex, is exactly the directed
-/// edges of the loops, whether or not chords cross. No triangle of area sags more than
+/// edges of the loops, whether or not chords cross. No triangle sags more than
 /// [`SAG_LIMIT_RAD`] allows (1.3 km on Earth) if no chord is longer than 2° of arc.
 pub(crate) fn triangulate(ellipsoid: Ellipsoid, vertices: &[DVec3], loops: &[Vec<u32>]) -> Caps {
     if loops.is_empty() {
@@ -79,10 +79,7 @@ fn globe(ellipsoid: Ellipsoid, first: usize) -> Caps {
     Caps {
         interior: interior.collect(),
         triangles: triangles.map(|t| t.map(|i| i + first as u32)).collect(),
-        sag_m: sag::metres(
-            ellipsoid,
-            sag::of_triangles(&LATTICE.points, &LATTICE.triangles),
-        ),
+        sag_m: sag::metres(ellipsoid, LATTICE.sag()),
     }
 }
 
@@ -233,7 +230,7 @@ impl<'a> Outline<'a> {
         };
         let mut sag = 0.0_f64;
         for triangle in &mut triangles {
-            sag = sag.max(sag::of_triangle(triangle.map(sphere)));
+            sag = sag::deeper(sag, triangle.map(sphere));
             *triangle = triangle.map(|point| match self.shared.get(point as usize) {
                 Some(&shared) => shared,
                 None => (self.first_interior + point as usize - boundary) as u32,

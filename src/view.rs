@@ -153,7 +153,7 @@ impl LayerView {
 }
 
 fn mesh_group(to: &Upload<'_>, vertices: &wgpu::Buffer, codes: &wgpu::Buffer) -> wgpu::BindGroup {
-    let buffers = [vertices, &to.mesh.arc_of, &to.mesh.arcs, codes];
+    let buffers = [vertices, &to.mesh.arc_at, &to.mesh.arcs, codes];
     let entries: Vec<_> = (0..)
         .zip(buffers)
         .map(|(binding, buffer)| wgpu::BindGroupEntry {
@@ -203,7 +203,7 @@ impl FrameUniform {
             eye_remainder: [x, y, z, outward],
             normal_scale: [1.0, 1.0, (ratio * ratio) as f32, 0.0],
             heights: heights.map(|height| height as f32),
-            slack: [constant, linear, quadratic, 0.0],
+            slack: [constant, linear, quadratic, sight.near_m as f32],
         }
     }
 }

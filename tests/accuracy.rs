@@ -14,16 +14,19 @@ use common::{
     headless::{Gpu, gpu},
     oracle::Oracle,
     pair_mesh::Pair,
-    score::{Score, judge},
-    surface::{DepthKind, Surface, Terrain},
+    score::{Score, expected_ids, judge},
+    surface::{Cast, DepthKind, Surface, Terrain},
 };
 use glam::UVec2;
-use globefill::{CountTechnique, EdgeKind, Ellipsoid, FillMesh, LonLat, Region, View};
+use globefill::{
+    CountTechnique, EdgeKind, Ellipsoid, FillMesh, LonLat, Region, View, countries::Dataset,
+    fill_mesh::MeshOptions,
+};
 
 const SMALL: UVec2 = UVec2::new(320, 180);
 const FULL: UVec2 = UVec2::new(1280, 720);
 const TECHNIQUES: [CountTechnique; 2] = [CountTechnique::Winding, CountTechnique::Stencil];
-const DEPTHS: [DepthKind; 2] = [DepthKind::Reversed, DepthKind::Standard];
+const PLATEAU: Terrain = Terrain::Plateau { height_m: 4000.0 };
 
 /// Regions, their mesh and their judge.
 struct Subject {
@@ -44,80 +47,92 @@ impl Subject {
     fn pair(name: &str, pair: Pair) -> Self {
         Self::new(name, &pair.regions(), pair.mesh())
     }
-}
 
-/// What a picture is drawn under.
-#[derive(Clone, Copy)]
-struct Setting {
-    pose: Pose,
-    terrain: Terrain,
-    depth: DepthKind,
-    samples: u32,
-    count: CountTechnique,
-}
-
-/// Draws and judges one picture; prints a line of figures.
-fn check(gpu: &Gpu, subject: &Subject, setting: Setting, size_px: UVec2) -> Score {
-    let start = Instant::now();
-    let Setting {
-        pose,
-        terrain,
-        depth,
-        samples,
-        count,
-    } = setting;
-    let figure = subject.oracle.figure;
-    let surface = Surface::new(&figure, &pose, size_px, samples, terrain, depth);
-    let cast_s = start.elapsed().as_secs_f64();
-    let mut painter = IdPainter::new(gpu, subject.mesh.clone(), &surface, count);
-    let picture = painter.draw(gpu, &mut View::default(), &surface, 0.0);
-    let drawn_s = start.elapsed().as_secs_f64();
-    assert_eq!(
-        picture.stats.technique, count,
-        "{}: head-room",
-        subject.name
-    );
-    let score = judge(&subject.oracle, &surface, &picture.ids, 0.0);
-    println!(
-        "{:<34} {:>9} m pitch {:>3} {terrain:?} {depth:?} {count:?} ×{samples}: covered {} of {}, \
-         differing {}, wrong {} (stray {}, limb {}, sky {}), worst {:.4} px; \
-         {} refined, {} vertices; {cast_s:.1} + {:.1} + {:.1} s",
-        subject.name,
-        pose.height_m,
-        pose.pitch_deg,
-        score.covered,
-        score.surface,
-        score.differing,
-        score.wrong,
-        score.stray,
-        score.wrong_at_limb,
-        score.sky,
-        score.worst_px,
-        picture.stats.refined_chords,
-        picture.stats.vertices,
-        drawn_s - cast_s,
-        start.elapsed().as_secs_f64() - drawn_s,
-    );
-    if !score.is_clean() {
-        println!("    x, y, drawn, expected, px: {:?}", score.examples);
+    fn countries(dataset: Dataset) -> Self {
+        let regions: Vec<Region> = dataset.countries().into_iter().map(|c| c.region).collect();
+        let mesh = FillMesh::build(&regions, &MeshOptions::default()).expect("real countries");
+        Self::new(&format!("{dataset:?}"), &regions, mesh)
     }
-    score
+
+    /// The middle of the first edge of the first region.
+    fn middle(&self) -> LonLat {
+        let edge = self.oracle.boundary(0).next().expect("a triangle");
+        edge.point(&self.oracle.figure, 0.5)
+    }
 }
 
-/// Judges every case before it fails, so that one run shows them all.
-#[derive(Default)]
-struct Tally {
+/// Judges every picture before it fails, so that one run shows them all.
+struct Gate<'a> {
+    gpu: &'a Gpu,
+    size_px: UVec2,
+    samples: u32,
     pictures: usize,
     failed: Vec<String>,
 }
 
-impl Tally {
-    fn check(&mut self, gpu: &Gpu, subject: &Subject, setting: Setting, size_px: UVec2) {
-        let score = check(gpu, subject, setting, size_px);
+impl<'a> Gate<'a> {
+    fn new(gpu: &'a Gpu, size_px: UVec2, samples: u32) -> Self {
+        Self {
+            gpu,
+            size_px,
+            samples,
+            pictures: 0,
+            failed: Vec::new(),
+        }
+    }
+
+    /// Draws and judges a view with both depth conventions and both techniques, which must agree
+    /// pixel for pixel.
+    fn check(&mut self, subject: &Subject, pose: Pose, terrain: Terrain) {
+        let cast = Cast::new(
+            &subject.oracle.figure,
+            &pose,
+            self.size_px,
+            self.samples,
+            terrain,
+        );
+        for depth in [DepthKind::Reversed, DepthKind::Standard] {
+            let surface = Surface::new(&cast, depth);
+            let expected = expected_ids(&subject.oracle, &surface);
+            let view = format!(
+                "{} from {:.0} m, heading {}, pitch {}, {terrain:?}, {depth:?}",
+                subject.name, pose.height_m, pose.heading_deg, pose.pitch_deg
+            );
+            let pictures = TECHNIQUES.map(|count| {
+                let start = Instant::now();
+                let mut painter = IdPainter::new(self.gpu, subject.mesh.clone(), &surface, count);
+                let picture = painter.draw(self.gpu, &mut View::default(), &surface, 0.0);
+                let ms = start.elapsed().as_millis();
+                assert_eq!(picture.stats.technique, count, "{view}: no head-room");
+                let score = judge(&subject.oracle, &surface, &expected, &picture.ids, 0.0);
+                println!("{view}, {count:?}: {score}; {:?}; {ms} ms", picture.stats);
+                self.note(&format!("{view}, {count:?}"), &score);
+                picture.ids
+            });
+            let disagreeing: Vec<usize> = (0..surface.pixel_count())
+                .filter(|&pixel| pictures[0][pixel] != pictures[1][pixel])
+                .collect();
+            if let Some(&pixel) = disagreeing.first() {
+                let width = self.size_px.x as usize;
+                self.failed.push(format!(
+                    "{view}: techniques disagree at {} pixels; at {}, {}: {} and {}, truly {}",
+                    disagreeing.len(),
+                    pixel % width,
+                    pixel / width,
+                    pictures[0][pixel],
+                    pictures[1][pixel],
+                    expected[pixel]
+                ));
+            }
+        }
+    }
+
+    fn note(&mut self, name: &str, score: &Score) {
         self.pictures += 1;
-        assert!(score.surface > 0, "{}: only sky", subject.name);
+        assert!(score.surface > 0, "{name}: only sky");
         if !score.is_clean() {
-            self.failed.push(format!("{}: {score:?}", subject.name));
+            self.failed
+                .push(format!("{name}: {score}; {:?}", score.examples));
         }
     }
 
@@ -125,7 +140,7 @@ impl Tally {
         assert!(self.pictures > 0);
         assert!(
             self.failed.is_empty(),
-            "{} of {} pictures have wrong pixels:\n{}",
+            "{} failures in {} pictures:\n{}",
             self.failed.len(),
             self.pictures,
             self.failed.join("\n")
@@ -133,56 +148,196 @@ impl Tally {
     }
 }
 
-/// Height of the eye above the terrain at a place.
+/// Height of the ellipsoid's normal at which an eye is `height_m` above the terrain.
 fn above(terrain: Terrain, at: LonLat, height_m: f64) -> f64 {
     let figure = Figure::new(Ellipsoid::WGS84);
     terrain.height_m(figure.normal(at)) + height_m
 }
 
+/// Edges of about 100 km, of every kind, and where longitudes are of no use.
+fn edges_of_100_km() -> Vec<Subject> {
+    let mut subjects: Vec<Subject> = [EdgeKind::Straight, EdgeKind::Rhumb, EdgeKind::Geodesic]
+        .map(|kind| {
+            let pair = Pair::about(kind, 11.0, 47.0, 65.0, 0.9);
+            Subject::pair(&format!("{kind:?} edge"), pair)
+        })
+        .into();
+    let antimeridian = Pair::about(EdgeKind::Straight, 180.0, -17.0, 80.0, 0.9);
+    subjects.push(Subject::pair("edge over the antimeridian", antimeridian));
+    let at = |lon_deg| LonLat::new(lon_deg, 89.55);
+    let over_the_pole = Pair {
+        kind: EdgeKind::Geodesic,
+        a: at(20.0),
+        b: at(-160.0),
+        left: at(-70.0),
+        right: at(110.0),
+    };
+    subjects.push(Subject::pair("edge over the pole", over_the_pole));
+    subjects
+}
+
 /// Nadir over the middle of one 100 km edge: where a chord, a skew wall and single precision show.
-fn over_the_middle_of_an_edge(size_px: UVec2, techniques: &[CountTechnique], depths: &[DepthKind]) {
+fn over_the_middle_of_an_edge(size_px: UVec2) {
     let Some(gpu) = gpu() else { return };
-    let mut tally = Tally::default();
-    let terrains = [
-        Terrain::Bare,
-        Terrain::Plateau { height_m: 4000.0 },
-        Terrain::Rough,
-    ];
-    for kind in [EdgeKind::Straight, EdgeKind::Rhumb, EdgeKind::Geodesic] {
-        let pair = Pair::about(kind, 11.0, 47.0, 65.0, 0.9);
-        let subject = Subject::pair(&format!("{kind:?} edge of 100 km"), pair);
-        // The middle of the true edge, by the oracle.
-        let edge = subject.oracle.boundary(0).next().expect("a triangle");
-        let middle = edge.point(&subject.oracle.figure, 0.5);
-        for terrain in terrains {
-            for height_m in [1.0, 10.0, 100.0, 10_000.0] {
-                for &depth in depths {
-                    for &count in techniques {
-                        let height_m = above(terrain, middle, height_m);
-                        let pose = Pose::nadir(middle.lon_deg, middle.lat_deg, height_m);
-                        let setting = Setting {
-                            pose,
-                            terrain,
-                            depth,
-                            samples: 1,
-                            count,
-                        };
-                        tally.check(gpu, &subject, setting, size_px);
-                    }
-                }
+    let mut gate = Gate::new(gpu, size_px, 1);
+    for subject in edges_of_100_km() {
+        let middle = subject.middle();
+        for terrain in [Terrain::Bare, PLATEAU, Terrain::Rough] {
+            for height_m in [1.0, 10.0, 100.0] {
+                let height_m = above(terrain, middle, height_m);
+                let pose = Pose::nadir(middle.lon_deg, middle.lat_deg, height_m);
+                gate.check(&subject, pose, terrain);
             }
         }
     }
-    tally.finish();
+    gate.finish();
+}
+
+/// Slanting and far views of the same edges.
+fn along_and_across_an_edge(size_px: UVec2, samples: u32) {
+    let Some(gpu) = gpu() else { return };
+    let mut gate = Gate::new(gpu, size_px, samples);
+    for subject in edges_of_100_km() {
+        let middle = subject.middle();
+        for (height_m, heading_deg, pitch_deg) in [
+            (1.7, 65.0, -10.0),
+            (100.0, 70.0, -20.0),
+            (1000.0, 150.0, -35.0),
+            (5e4, 65.0, -5.0),
+            (9e5, 0.0, -90.0),
+            (2e7, 0.0, -90.0),
+        ] {
+            let pose_over = |terrain| {
+                let height_m = above(terrain, middle, height_m);
+                Pose::nadir(middle.lon_deg, middle.lat_deg, height_m).turned(heading_deg, pitch_deg)
+            };
+            gate.check(&subject, pose_over(Terrain::Bare), Terrain::Bare);
+            if height_m < 1e5 && samples == 1 {
+                gate.check(&subject, pose_over(PLATEAU), PLATEAU);
+                gate.check(&subject, pose_over(Terrain::Rough), Terrain::Rough);
+            }
+        }
+    }
+    gate.finish();
 }
 
 #[test]
 fn nothing_is_wrong_over_the_middle_of_an_edge() {
-    over_the_middle_of_an_edge(SMALL, &TECHNIQUES, &DEPTHS);
+    over_the_middle_of_an_edge(SMALL);
 }
 
 #[test]
 #[ignore = "full size; see the head of this file"]
 fn nothing_is_wrong_over_the_middle_of_an_edge_at_full_size() {
-    over_the_middle_of_an_edge(FULL, &TECHNIQUES, &DEPTHS);
+    over_the_middle_of_an_edge(FULL);
+}
+
+#[test]
+fn nothing_is_wrong_along_and_across_an_edge() {
+    along_and_across_an_edge(SMALL, 1);
+}
+
+#[test]
+#[ignore = "full size; see the head of this file"]
+fn nothing_is_wrong_along_and_across_an_edge_at_full_size() {
+    along_and_across_an_edge(FULL, 1);
+}
+
+#[test]
+fn nothing_is_wrong_with_four_samples() {
+    along_and_across_an_edge(SMALL, 4);
+}
+
+/// A point of the border between Germany and France where the Rhine is: near Strasbourg.
+fn on_the_rhine(subject: &Subject) -> LonLat {
+    let figure = &subject.oracle.figure;
+    let strasbourg = figure.ecef(LonLat::new(7.8, 48.57), 0.0);
+    let nearest = (0..subject.oracle.region_count())
+        .flat_map(|region| subject.oracle.boundary(region))
+        .map(|edge| (edge.nearest(figure, strasbourg), edge))
+        .min_by(|a, b| a.0.0.total_cmp(&b.0.0));
+    let ((_, t), edge) = nearest.expect("countries have edges");
+    edge.point(figure, t)
+}
+
+/// The world, a country, the horizon, and a border from near by.
+fn countries_from_everywhere(dataset: Dataset, size_px: UVec2) {
+    let Some(gpu) = gpu() else { return };
+    let mut gate = Gate::new(gpu, size_px, 1);
+    let subject = Subject::countries(dataset);
+    for (lon_deg, lat_deg) in [(10.0, 20.0), (100.0, 30.0), (-100.0, 10.0), (180.0, -20.0)] {
+        gate.check(&subject, Pose::nadir(lon_deg, lat_deg, 2e7), Terrain::Bare);
+    }
+    for lat_deg in [90.0, -90.0] {
+        gate.check(&subject, Pose::nadir(0.0, lat_deg, 1e7), Terrain::Bare);
+    }
+    let germany = Pose::nadir(10.4, 51.1, 9e5);
+    let horizon = Pose::nadir(8.0, 47.0, 5e4).turned(20.0, -5.0);
+    for terrain in [Terrain::Bare, PLATEAU, Terrain::Rough] {
+        gate.check(&subject, germany, terrain);
+        gate.check(&subject, horizon, terrain);
+    }
+    let border = on_the_rhine(&subject);
+    for terrain in [Terrain::Bare, PLATEAU, Terrain::Rough] {
+        for (height_m, heading_deg, pitch_deg) in [
+            (1000.0, 30.0, -30.0),
+            (100.0, 200.0, -30.0),
+            (1.7, 30.0, -15.0),
+        ] {
+            let height_m = above(terrain, border, height_m);
+            let pose = Pose::nadir(border.lon_deg, border.lat_deg, height_m)
+                .turned(heading_deg, pitch_deg);
+            gate.check(&subject, pose, terrain);
+        }
+    }
+    gate.finish();
+}
+
+#[test]
+fn nothing_is_wrong_on_countries_of_110m() {
+    countries_from_everywhere(Dataset::Countries110m, SMALL);
+}
+
+#[test]
+fn nothing_is_wrong_on_countries_of_50m() {
+    countries_from_everywhere(Dataset::Countries50m, SMALL);
+}
+
+#[test]
+#[ignore = "full size; see the head of this file"]
+fn nothing_is_wrong_on_countries_at_full_size() {
+    countries_from_everywhere(Dataset::Countries110m, FULL);
+    countries_from_everywhere(Dataset::Countries50m, FULL);
+}
+
+/// The gate can fail: a border drawn a fifth of a pixel aside is seen as that.
+#[test]
+fn a_displaced_border_is_seen() {
+    let Some(gpu) = gpu() else { return };
+    let pair = Pair::about(EdgeKind::Straight, 11.0, 47.0, 0.0, 0.9);
+    let subject = Subject::pair("true border", pair);
+    let middle = subject.middle();
+    let pose = Pose::nadir(middle.lon_deg, middle.lat_deg, 50.0);
+    let cast = Cast::new(&subject.oracle.figure, &pose, SMALL, 1, Terrain::Bare);
+    let surface = Surface::new(&cast, DepthKind::Reversed);
+    let expected = expected_ids(&subject.oracle, &surface);
+    // The border runs north between two columns of pixels: 0.7 px aside it has passed one of them,
+    // whose centres are half a pixel from where the border should be.
+    let degree_m = 111_412.84 * 47f64.to_radians().cos() - 93.5 * (3.0 * 47f64.to_radians()).cos();
+    let pixel_m = 50.0 * 2.0 * 30f64.to_radians().tan() / f64::from(SMALL.y);
+    let aside = |p: LonLat| LonLat::new(p.lon_deg + 0.7 * pixel_m / degree_m, p.lat_deg);
+    let moved = Pair {
+        a: aside(pair.a),
+        b: aside(pair.b),
+        ..pair
+    };
+    let mut painter = IdPainter::new(gpu, moved.mesh(), &surface, TECHNIQUES[0]);
+    let picture = painter.draw(gpu, &mut View::default(), &surface, 0.0);
+    let score = judge(&subject.oracle, &surface, &expected, &picture.ids, 0.0);
+    assert_eq!(score.wrong, SMALL.y as usize, "{score}");
+    assert!((score.worst_px - 0.5).abs() < 0.01, "{score}");
+    let shifted = Oracle::new(&moved.regions(), Ellipsoid::WGS84);
+    let expected = expected_ids(&shifted, &surface);
+    let score = judge(&shifted, &surface, &expected, &picture.ids, 0.0);
+    assert!(score.is_clean(), "{score}");
 }

@@ -8,13 +8,21 @@ use common::{
     headless::gpu,
     oracle::Oracle,
     scene::{depth_texture, read_depths},
-    score::{expected_ids, judge},
-    surface::{DepthKind, Surface, Terrain},
+    score::{Score, expected_ids, judge},
+    surface::{Cast, DepthKind, Surface, Terrain},
 };
 use glam::{DVec2, UVec2};
 use globefill::{EdgeKind, Ellipsoid, LonLat, Polygon, Region, wgpu};
 
 const SIZE: UVec2 = UVec2::new(160, 90);
+
+fn surface_of(pose: &Pose, samples: u32, terrain: Terrain, kind: DepthKind) -> Surface {
+    Surface::new(&Cast::new(&figure(), pose, SIZE, samples, terrain), kind)
+}
+
+fn score_of(truth: &Oracle, surface: &Surface, drawn: &[u32]) -> Score {
+    judge(truth, surface, &expected_ids(truth, surface), drawn, 0.0)
+}
 
 fn figure() -> Figure {
     Figure::new(Ellipsoid::WGS84)
@@ -34,7 +42,7 @@ fn poses() -> Vec<Pose> {
 fn projecting_a_ray_returns_its_pixel() {
     for pose in poses() {
         for kind in [DepthKind::Reversed, DepthKind::Standard] {
-            let surface = Surface::new(&figure(), &pose, SIZE, 1, Terrain::Bare, kind);
+            let surface = surface_of(&pose, 1, Terrain::Bare, kind);
             for (index, point_m) in surface.points_m.iter().enumerate() {
                 let Some(point_m) = point_m else { continue };
                 let (x, y) = (index as u32 % SIZE.x, index as u32 / SIZE.x);
@@ -62,7 +70,7 @@ fn rays_meet_the_surface() {
             Terrain::Plateau { height_m: 4000.0 },
             Terrain::Rough,
         ] {
-            let surface = Surface::new(&figure(), &pose, SIZE, 1, terrain, DepthKind::Reversed);
+            let surface = surface_of(&pose, 1, terrain, DepthKind::Reversed);
             let (low_m, high_m) = terrain.range_m();
             for (index, point_m) in surface.points_m.iter().enumerate() {
                 let Some(point_m) = point_m else { continue };
@@ -84,10 +92,10 @@ fn rays_meet_the_surface() {
 fn the_depth_texture_holds_the_surface() {
     let Some(gpu) = gpu() else { return };
     for kind in [DepthKind::Reversed, DepthKind::Standard] {
-        let surface = Surface::new(&figure(), &poses()[2], SIZE, 1, Terrain::Rough, kind);
+        let surface = surface_of(&poses()[2], 1, Terrain::Rough, kind);
         let (texture, _) = depth_texture(gpu, &surface, wgpu::TextureFormat::Depth32Float);
         assert!(read_depths(gpu, &texture) == surface.depths);
-        let surface = Surface::new(&figure(), &poses()[2], SIZE, 4, Terrain::Rough, kind);
+        let surface = surface_of(&poses()[2], 4, Terrain::Rough, kind);
         depth_texture(gpu, &surface, wgpu::TextureFormat::Depth32Float);
     }
 }
@@ -111,10 +119,10 @@ fn meadow(shift_deg: f64) -> Vec<Region> {
 fn the_score_sees_displacement() {
     let pose = Pose::nadir(7.0, 46.0, 20_000.0);
     for terrain in [Terrain::Bare, Terrain::Plateau { height_m: 4000.0 }] {
-        let surface = Surface::new(&figure(), &pose, SIZE, 1, terrain, DepthKind::Reversed);
+        let surface = surface_of(&pose, 1, terrain, DepthKind::Reversed);
         let truth = Oracle::new(&meadow(0.0), Ellipsoid::WGS84);
         let perfect = expected_ids(&truth, &surface);
-        let score = judge(&truth, &surface, &perfect, 0.0);
+        let score = score_of(&truth, &surface, &perfect);
         assert!(score.is_clean() && score.covered == SIZE.element_product() as usize);
         let middle = (SIZE / 2).as_dvec2();
         let ground_m = figure().ecef(LonLat::new(7.0, 46.0), terrain.range_m().1);
@@ -129,7 +137,7 @@ fn the_score_sees_displacement() {
         for shift_px in [0.51, 3.3] {
             let shifted = Oracle::new(&meadow(shift_px / metre_px * metre_deg), Ellipsoid::WGS84);
             let drawn = expected_ids(&shifted, &surface);
-            let score = judge(&truth, &surface, &drawn, 0.0);
+            let score = score_of(&truth, &surface, &drawn);
             // The border runs down the middle of the picture: whole columns of pixels are wrong.
             let columns = f64::round(shift_px) as usize;
             assert_eq!(
@@ -147,7 +155,7 @@ fn the_score_sees_displacement() {
         let mut painted = perfect.clone();
         painted[0] = 0;
         painted[1] = 77;
-        let score = judge(&truth, &surface, &painted, 0.0);
+        let score = score_of(&truth, &surface, &painted);
         assert_eq!((score.wrong, score.stray), (2, 1));
     }
 }
@@ -155,14 +163,7 @@ fn the_score_sees_displacement() {
 #[test]
 fn the_score_forgives_the_band_only() {
     let pose = Pose::nadir(7.0, 46.0, 20_000.0);
-    let surface = Surface::new(
-        &figure(),
-        &pose,
-        SIZE,
-        1,
-        Terrain::Bare,
-        DepthKind::Reversed,
-    );
+    let surface = surface_of(&pose, 1, Terrain::Bare, DepthKind::Reversed);
     // The pixel column right of the border: 0.5 px off. Move the truth so that it is 0.02 px off.
     let (_, distance_m) = surface
         .lens
@@ -178,7 +179,7 @@ fn the_score_forgives_the_band_only() {
             Ellipsoid::WGS84,
         );
         let drawn = expected_ids(&Oracle::new(&meadow(0.0), Ellipsoid::WGS84), &surface);
-        let score = judge(&truth, &surface, &drawn, 0.0);
+        let score = score_of(&truth, &surface, &drawn);
         assert_eq!(score.wrong == 0, clean, "{score:?}");
         assert!(score.differing >= SIZE.y as usize / 2);
     }

@@ -9,7 +9,7 @@ use common::{
 };
 use geographiclib_rs::{DirectGeodesic, Geodesic, InverseGeodesic};
 use glam::DVec3;
-use globefill::{EdgeKind, Ellipsoid, Inside, LonLat, Polygon, Region};
+use globefill::{EdgeKind, Ellipsoid, Inside, LonLat, Polygon, Region, countries::Dataset};
 
 fn ring(points: &[(f64, f64)]) -> Vec<LonLat> {
     points.iter().map(|&(x, y)| LonLat::new(x, y)).collect()
@@ -481,4 +481,50 @@ fn seams_are_not_boundary() {
         inside: Inside::Smaller,
     };
     assert_eq!(oracle_of(&halves).boundary(0).count(), 6);
+}
+
+/// Cities, seas and poles: what any atlas says of Natural Earth's countries.
+#[test]
+fn places_are_where_the_atlas_has_them() {
+    for dataset in [Dataset::Countries110m, Dataset::Countries50m] {
+        let countries = dataset.countries();
+        let regions: Vec<Region> = countries.iter().map(|c| c.region.clone()).collect();
+        let oracle = Oracle::new(&regions, Ellipsoid::WGS84);
+        let mut scratch = Scratch::default();
+        for (code, lon_deg, lat_deg) in [
+            ("DEU", 10.45, 51.16),
+            ("FRA", 2.35, 48.85),
+            ("USA", -104.0, 48.99),
+            ("CAN", -104.0, 49.01),
+            ("USA", -150.0, 65.0),
+            ("RUS", 179.9, 68.0),
+            ("RUS", -175.0, 67.0),
+            ("FJI", 177.9, -17.8),
+            // Not −90°: the 50m source leaves a hole of 120 m about the pole.
+            ("ATA", 0.0, -89.99),
+            ("ATA", 180.0, -85.0),
+            ("ATA", -180.0, -88.0),
+            ("AUS", 133.0, -25.0),
+            ("ZAF", 25.0, -31.0),
+            ("LSO", 28.2, -29.5),
+            ("BRA", -55.0, -10.0),
+            ("JPN", 138.5, 36.2),
+            ("NZL", 171.5, -43.0),
+            ("ISL", -18.5, 64.9),
+        ] {
+            let found = oracle.containing(LonLat::new(lon_deg, lat_deg), &mut scratch);
+            let codes: Vec<&str> = found
+                .iter()
+                .map(|&k| countries[k as usize].long_code)
+                .collect();
+            assert_eq!(codes, [code], "{dataset:?} at {lon_deg}, {lat_deg}");
+        }
+        for (lon_deg, lat_deg) in [(0.0, 90.0), (-30.0, 0.0), (-140.0, -40.0), (180.0, 0.0)] {
+            let found = oracle.containing(LonLat::new(lon_deg, lat_deg), &mut scratch);
+            assert!(
+                found.is_empty(),
+                "{dataset:?} at {lon_deg}, {lat_deg}: {found:?}"
+            );
+        }
+    }
 }

@@ -7,7 +7,8 @@ fn every_shader_validates() {
             .unwrap_or_else(|error| panic!("{name}: {}", error.emit_to_string(&source)));
         let mut validator = naga::valid::Validator::new(
             naga::valid::ValidationFlags::all(),
-            naga::valid::Capabilities::MULTISAMPLED_SHADING,
+            naga::valid::Capabilities::MULTISAMPLED_SHADING
+                | naga::valid::Capabilities::CLIP_DISTANCES,
         );
         if let Err(error) = validator.validate(&module) {
             panic!("{name}: {}", error.emit_to_string(&source));

@@ -83,6 +83,13 @@ mod tests {
     }
 
     #[test]
+    fn the_pole_itself_stays_finite() {
+        for pole in [DVec3::Z, DVec3::X, DVec3::new(0.6, -0.64, 0.48).normalize()] {
+            assert!(Chart::new(pole).project(pole).is_finite());
+        }
+    }
+
+    #[test]
     fn counter_clockwise_stays_counter_clockwise() {
         for pole in [DVec3::Z, -DVec3::Z, DVec3::new(0.6, -0.64, 0.48), DVec3::Y] {
             let chart = Chart::new(pole);

@@ -174,16 +174,38 @@ impl Constrained {
         (centre, radius * Chart::scale(centre))
     }
 
+    /// The point of a face, in the chart, that is nearest to the chart's centre.
+    pub(super) fn nearest_to_centre(&self, face: Face) -> DVec2 {
+        let centre = Point2::new(0.0, 0.0);
+        let edges = self.cdt.face(face).adjacent_edges();
+        if edges
+            .iter()
+            .all(|e| e.side_query(centre).is_on_left_side_or_on_line())
+        {
+            return DVec2::ZERO;
+        }
+        let nearest = edges.map(|e| e.as_undirected().nearest_point(centre));
+        let nearest = nearest.map(|p| DVec2::new(p.x, p.y));
+        let closer = |a: DVec2, b: DVec2| {
+            if a.length_squared() < b.length_squared() {
+                a
+            } else {
+                b
+            }
+        };
+        closer(closer(nearest[0], nearest[1]), nearest[2])
+    }
+
     /// The points of a face's corners.
     pub(super) fn corners(&self, face: Face) -> [DVec3; 3] {
         let vertices = self.cdt.face(face).vertices();
         vertices.map(|v| self.points[v.index()])
     }
 
-    /// Adds a vertex, unless it would split a piece of boundary.
-    pub(super) fn insert(&mut self, plane: DVec2, point: DVec3) {
-        let position = mitigate_underflow(Point2::new(plane.x, plane.y));
-        let beside_boundary = match self.cdt.locate(position) {
+    /// Adds a vertex, unless it would split a piece of boundary. It is looked for from `near` on.
+    pub(super) fn insert(&mut self, plane: DVec2, point: DVec3, near: FixedVertexHandle) {
+        let position = position(plane);
+        let beside_boundary = match self.cdt.locate_with_hint(position, near) {
             PositionInTriangulation::OnFace(_) => true,
             PositionInTriangulation::OnEdge(edge) => {
                 !self.cdt.is_constraint_edge(edge.as_undirected())
@@ -191,7 +213,7 @@ impl Constrained {
             _ => false,
         };
         // A finite position is the only condition of an insertion.
-        if beside_boundary && self.cdt.insert(position).is_ok() {
+        if beside_boundary && self.cdt.insert_with_hint(position, near).is_ok() {
             self.points.push(point);
         }
     }
@@ -212,6 +234,11 @@ impl Constrained {
         triangles
     }
 
+    /// Number of vertices that were added inside.
+    pub(super) fn interior_count(&self) -> usize {
+        self.points.len() - self.names.len()
+    }
+
     /// The vertices that were added inside.
     pub(super) fn into_interior(mut self) -> Vec<DVec3> {
         self.points.split_off(self.names.len())
@@ -225,6 +252,11 @@ fn direction(edge: FixedDirectedEdgeHandle) -> i32 {
     } else {
         -1
     }
+}
+
+/// A position that the triangulation accepts: it has no use for numbers below 10⁻⁴³.
+pub(super) fn position(plane: DVec2) -> Point2<f64> {
+    mitigate_underflow(Point2::new(plane.x, plane.y))
 }
 
 /// The distinct positions of points in a chart.
@@ -245,8 +277,7 @@ impl Sites {
         };
         let mut known = FxHashMap::with_capacity_and_hasher(points.len(), Default::default());
         for (name, &point) in points.iter().enumerate() {
-            let plane = chart.project(point);
-            let position = mitigate_underflow(Point2::new(plane.x, plane.y));
+            let position = position(chart.project(point));
             // `+ 0.0` turns −0 into +0, so that equal positions have equal bits.
             let key = [position.x, position.y].map(|x| (x + 0.0).to_bits());
             let site = *known.entry(key).or_insert_with(|| {

@@ -5,7 +5,7 @@ use spade::{PositionInTriangulation, Triangulation, handles::FixedVertexHandle};
 
 use super::{
     chart::Chart,
-    constrained::{Constrained, Face},
+    constrained::{Constrained, Face, position},
     lattice::LATTICE,
     sag,
 };
@@ -15,6 +15,9 @@ use super::{
 const CLEARANCE_RAD: f64 = 0.0157;
 /// Rounds of splitting. Each halves what is too long; 2° to 180° needs seven.
 const ROUNDS: usize = 40;
+/// Interior vertices after which nothing more is split. The whole globe needs 14 442; loops that
+/// need more have chords longer than 2°, or wind around all of it many times.
+const INTERIOR_MAX: usize = 40_000;
 
 /// Adds vertices until no filled triangle sags too deep: lattice points in the wide parts first, then
 /// the middles of sides that are too long. The boundary is never split.
@@ -23,16 +26,16 @@ pub(super) fn refine(constrained: &mut Constrained) {
     if !deep.contains(&true) {
         return;
     }
-    for point in lattice_points(constrained, &deep) {
-        constrained.insert(constrained.chart.project(point), point);
-    }
-    for _ in 0..ROUNDS {
-        constrained.wind();
-        if !split_long_sides(constrained) {
-            break;
-        }
+    for (point, near) in lattice_points(constrained, &deep) {
+        constrained.insert(constrained.chart.project(point), point, near);
     }
     constrained.wind();
+    for _ in 0..ROUNDS {
+        if constrained.interior_count() > INTERIOR_MAX || !split_long_sides(constrained) {
+            break;
+        }
+        constrained.wind();
+    }
 }
 
 /// Per face, whether it is filled and sags too deep.
@@ -45,22 +48,40 @@ fn deep_faces(constrained: &Constrained) -> Vec<bool> {
 }
 
 fn is_deep(constrained: &Constrained, face: Face) -> bool {
-    constrained.winding(face) != 0 && sag::of_triangle(constrained.corners(face)) > sag::limit()
+    if constrained.winding(face) == 0 {
+        return false;
+    }
+    let corners = constrained.corners(face);
+    sag::deeper(sag::limit(), corners) > sag::limit() || goes_round(constrained, face, corners)
 }
 
-/// The lattice points in deep faces, away from their corners.
-fn lattice_points(constrained: &Constrained, deep: &[bool]) -> Vec<DVec3> {
+/// Whether a face of the chart is the far side of the small flat triangle between its corners: three
+/// corners of a hole whose outside is filled.
+fn goes_round(constrained: &Constrained, face: Face, [a, b, c]: [DVec3; 3]) -> bool {
+    // The circle through the corners is then larger than a great one; but so is that of slivers.
+    if a.dot((b - a).cross(c - a)) > 0.0 {
+        return false;
+    }
+    let farthest = constrained
+        .chart
+        .unproject(constrained.nearest_to_centre(face));
+    let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
+    farthest.distance(a) > longest
+}
+
+/// The lattice points in deep faces, away from their corners, each with one of these.
+fn lattice_points(constrained: &Constrained, deep: &[bool]) -> Vec<(DVec3, FixedVertexHandle)> {
     let centre = constrained.chart.centre();
     let boundary = constrained.points.iter().map(|p| p.dot(centre));
     let lowest = boundary.fold(1.0, f64::min);
     let mut found = Vec::new();
     for &point in LATTICE.points.iter().filter(|p| p.dot(centre) > lowest) {
-        let plane = constrained.chart.project(point);
-        let position = spade::mitigate_underflow(spade::Point2::new(plane.x, plane.y));
+        let position = position(constrained.chart.project(point));
         if let PositionInTriangulation::OnFace(face) = constrained.cdt.locate(position) {
             let clear = |corner: DVec3| corner.distance_squared(point) > CLEARANCE_RAD.powi(2);
             if deep[face.index()] && constrained.corners(face).into_iter().all(clear) {
-                found.push(point);
+                let corner = constrained.cdt.face(face).vertices()[0];
+                found.push((point, corner.fix()));
             }
         }
     }
@@ -81,23 +102,26 @@ fn split_long_sides(constrained: &mut Constrained) -> bool {
         let [from, to] = [from, to].map(FixedVertexHandle::from_index);
         if constrained.cdt.get_edge_from_neighbors(from, to).is_some() {
             let plane = middle(constrained, [from, to]);
-            constrained.insert(plane, constrained.chart.unproject(plane));
+            constrained.insert(plane, constrained.chart.unproject(plane), from);
         }
     }
     !sides.is_empty()
 }
 
-/// Squared length and vertices, in ascending order, of a face's longest side that is not boundary.
+/// Squared length and vertices, in ascending order, of a face's longest side, unless that is boundary.
+///
+/// It never is where no chord is longer than 2° of arc; and where one is, splitting the other sides
+/// would not end.
 fn longest_side(constrained: &Constrained, face: Face) -> Option<(f64, [usize; 2])> {
     let edges = constrained.cdt.face(face).adjacent_edges();
-    let inner = edges.into_iter().filter(|edge| !edge.is_constraint_edge());
-    let sides = inner.map(|edge| {
+    let sides = edges.map(|edge| {
         let mut ends = edge.vertices().map(|v| v.index());
         ends.sort_unstable();
         let [a, b] = ends.map(|v| constrained.points[v]);
-        (a.distance_squared(b), ends)
+        (a.distance_squared(b), ends, edge.is_constraint_edge())
     });
-    sides.max_by(|a, b| a.0.total_cmp(&b.0))
+    let longest = sides.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
+    longest.and_then(|(length, ends, boundary)| (!boundary).then_some((length, ends)))
 }
 
 /// The point of the straight edge in the chart that is equally far, on the sphere, from both ends.

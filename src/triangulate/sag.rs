@@ -50,12 +50,18 @@ pub(super) fn of_triangle([a, b, c]: [DVec3; 3]) -> f64 {
     depth(circumradius_squared.max(0.25 * longest))
 }
 
-/// The deepest of triangles.
-pub(super) fn of_triangles(points: &[DVec3], triangles: &[[u32; 3]]) -> f64 {
-    let sags = triangles
-        .iter()
-        .map(|t| of_triangle(t.map(|i| points[i as usize])));
-    sags.fold(0.0, f64::max)
+/// The deeper of `deepest` and a triangle; quick where the triangle is small.
+pub(super) fn deeper(deepest: f64, corners: [DVec3; 3]) -> f64 {
+    if bound(corners) <= deepest {
+        return deepest;
+    }
+    deepest.max(of_triangle(corners))
+}
+
+/// An upper bound of a triangle's sag. With a given longest side the equilateral one sags deepest.
+fn bound([a, b, c]: [DVec3; 3]) -> f64 {
+    let longest = a.distance_squared(b).max(b.distance_squared(c));
+    depth(longest.max(c.distance_squared(a)) / 3.0 * (1.0 + 1e-9))
 }
 
 /// 1 − √(1 − x) without cancellation.

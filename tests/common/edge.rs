@@ -301,19 +301,8 @@ impl TrueEdge {
             } => {
                 let (k, offset_deg) = self.bracket(lon_deg);
                 let step_m = length_m / (samples.len() - 1) as f64;
-                let (mut low, mut high) = (step_m * k as f64, step_m * (k + 1) as f64);
-                while high - low > 1e-10 {
-                    let middle = 0.5 * (low + high);
-                    if middle <= low || middle >= high {
-                        break;
-                    }
-                    if along(line, self.from, middle).0.abs() < offset_deg.abs() {
-                        low = middle;
-                    } else {
-                        high = middle;
-                    }
-                }
-                along(line, self.from, 0.5 * (low + high)).1
+                let range_m = (step_m * k as f64, step_m * (k + 1) as f64);
+                latitude_where(figure, line, self.from, range_m, offset_deg)
             }
         }
     }
@@ -383,6 +372,42 @@ fn along(line: &GeodesicLine, from: LonLat, distance_m: f64) -> (f64, f64) {
     let mask = capability::LATITUDE | capability::LONGITUDE | capability::LONG_UNROLL;
     let (_, lat_deg, lon_deg, ..) = line._gen_position(false, distance_m, mask);
     (lon_deg - from.lon_deg, lat_deg)
+}
+
+/// Latitude, degrees, at which a geodesic reaches a longitude, between two distances from its start:
+/// Newton's method, and bisection where that would leave the range.
+fn latitude_where(
+    figure: &Figure,
+    line: &GeodesicLine,
+    from: LonLat,
+    (mut low_m, mut high_m): (f64, f64),
+    offset_deg: f64,
+) -> f64 {
+    let mask = capability::LATITUDE
+        | capability::LONGITUDE
+        | capability::AZIMUTH
+        | capability::LONG_UNROLL;
+    let mut at_m = 0.5 * (low_m + high_m);
+    loop {
+        let (_, lat_deg, lon_deg, azimuth_deg, ..) = line._gen_position(false, at_m, mask);
+        let missing_deg = offset_deg.abs() - (lon_deg - from.lon_deg).abs();
+        if missing_deg > 0.0 {
+            low_m = at_m;
+        } else {
+            high_m = at_m;
+        }
+        let parallel_m = figure.ecef(LonLat::new(0.0, lat_deg), 0.0).x;
+        let step_m = missing_deg.to_radians() * parallel_m / azimuth_deg.to_radians().sin().abs();
+        let next_m = if at_m + step_m > low_m && at_m + step_m < high_m {
+            at_m + step_m
+        } else {
+            0.5 * (low_m + high_m)
+        };
+        if (next_m - at_m).abs() < 1e-10 || step_m.abs() < 1e-10 {
+            return lat_deg;
+        }
+        at_m = next_m;
+    }
 }
 
 /// How far, degrees, a geodesic's latitude may leave the range of its samples: between two of them

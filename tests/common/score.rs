@@ -1,5 +1,7 @@
 //! Wrong pixels, counted: what was drawn against what the oracle says.
 
+use std::fmt;
+
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
@@ -40,6 +42,23 @@ impl Score {
     }
 }
 
+impl fmt::Display for Score {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "covered {} of {}, differing {}, wrong {} (stray {}, limb {}, sky {}), worst {:.4} px",
+            self.covered,
+            self.surface,
+            self.differing,
+            self.wrong,
+            self.stray,
+            self.wrong_at_limb,
+            self.sky,
+            self.worst_px
+        )
+    }
+}
+
 struct Verdict {
     pixel: usize,
     drawn: u32,
@@ -65,12 +84,18 @@ pub fn expected_ids(oracle: &Oracle, surface: &Surface) -> Vec<u32> {
 }
 
 /// Judges a picture of one id a pixel. With several samples only pixels whose samples agree are
-/// judged, and those within a pixel of the boundary are not.
-pub fn judge(oracle: &Oracle, surface: &Surface, drawn: &[u32], budget_px: f64) -> Score {
+/// judged, and those within a pixel of the boundary are not. `expected` is [`expected_ids`].
+pub fn judge(
+    oracle: &Oracle,
+    surface: &Surface,
+    expected: &[u32],
+    drawn: &[u32],
+    budget_px: f64,
+) -> Score {
     let count = surface.pixel_count();
     let samples = surface.samples() as usize;
     assert_eq!(drawn.len(), count);
-    let expected = expected_ids(oracle, surface);
+    assert_eq!(expected.len(), count * samples);
     let band_px = if samples == 1 {
         BAND_PX.max(budget_px)
     } else {

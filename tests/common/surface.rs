@@ -1,6 +1,6 @@
 //! What the host draws: the bare ellipsoid or analytic terrain, ray-cast in f64.
 
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, UVec2};
 use rayon::prelude::*;
 
 use super::{
@@ -80,7 +80,7 @@ impl Terrain {
             let after = (before + step).min(leave + 1e-3);
             gap = gap_m(after);
             if gap <= 0.0 {
-                return Some(bisect(gap_m, before, after));
+                return Some(zero_between(gap_m, before, after));
             }
             before = after;
         }
@@ -88,16 +88,30 @@ impl Terrain {
     }
 }
 
-fn bisect(gap_m: impl Fn(f64) -> f64, mut above: f64, mut below: f64) -> f64 {
+/// The zero of a gap between two parameters of different sign: regula falsi that halves the weight
+/// of an end that stays (Illinois).
+fn zero_between(gap_m: impl Fn(f64) -> f64, above: f64, below: f64) -> f64 {
+    let (mut low, mut high) = ((above, gap_m(above)), (below, gap_m(below)));
+    let mut last_above = None;
     for _ in 0..60 {
-        let middle = 0.5 * (above + below);
-        if gap_m(middle) > 0.0 {
-            above = middle;
-        } else {
-            below = middle;
+        let t = low.0 + (high.0 - low.0) * low.1 / (low.1 - high.1);
+        let gap = gap_m(t);
+        if gap.abs() < 1e-8 || t <= low.0 || t >= high.0 {
+            return t;
         }
+        let is_above = gap > 0.0;
+        if is_above {
+            low = (t, gap);
+        } else {
+            high = (t, gap);
+        }
+        if last_above == Some(is_above) {
+            let stale = if is_above { &mut high.1 } else { &mut low.1 };
+            *stale *= 0.5;
+        }
+        last_above = Some(is_above);
     }
-    0.5 * (above + below)
+    0.5 * (low.0 + high.0)
 }
 
 /// Sample positions within a pixel: the standard ones of the graphics APIs.
@@ -113,6 +127,53 @@ pub fn sample_positions(samples: u32) -> &'static [DVec2] {
         1 => &ONE,
         4 => &FOUR,
         _ => panic!("1 or 4 samples"),
+    }
+}
+
+/// Where the rays of a picture meet a surface.
+pub struct Cast {
+    figure: Figure,
+    pose: Pose,
+    size_px: UVec2,
+    terrain: Terrain,
+    /// Sample after sample, row after row: direction, and distance along the view axis.
+    rays: Vec<(DVec3, Option<f64>)>,
+}
+
+impl Cast {
+    pub fn new(
+        figure: &Figure,
+        pose: &Pose,
+        size_px: UVec2,
+        samples: u32,
+        terrain: Terrain,
+    ) -> Self {
+        let any_range = DepthRange::ReversedInfinite { near_m: 1.0 };
+        let lens = Lens::new(figure, pose, size_px, any_range);
+        let directions: Vec<DVec3> = sample_positions(samples)
+            .iter()
+            .flat_map(|&offset| {
+                (0..size_px.y).flat_map(move |y| {
+                    (0..size_px.x)
+                        .map(move |x| lens.ray(DVec2::new(f64::from(x), f64::from(y)) + offset))
+                })
+            })
+            .collect();
+        let rays: Vec<(DVec3, Option<f64>)> = directions
+            .into_par_iter()
+            .map(|ray| (ray, terrain.hit(figure, lens.eye_m, ray)))
+            .collect();
+        assert!(
+            rays.iter().any(|(_, hit)| hit.is_some()),
+            "{pose:?} sees nothing but sky"
+        );
+        Self {
+            figure: *figure,
+            pose: *pose,
+            size_px,
+            terrain,
+            rays,
+        }
     }
 }
 
@@ -137,33 +198,10 @@ pub enum DepthKind {
 }
 
 impl Surface {
-    pub fn new(
-        figure: &Figure,
-        pose: &Pose,
-        size_px: glam::UVec2,
-        samples: u32,
-        terrain: Terrain,
-        kind: DepthKind,
-    ) -> Self {
-        let any_range = DepthRange::ReversedInfinite { near_m: 1.0 };
-        let lens = Lens::new(figure, pose, size_px, any_range);
-        let rays: Vec<DVec3> = sample_positions(samples)
-            .iter()
-            .flat_map(|&offset| {
-                (0..size_px.y).flat_map(move |y| {
-                    (0..size_px.x)
-                        .map(move |x| lens.ray(DVec2::new(f64::from(x), f64::from(y)) + offset))
-                })
-            })
-            .collect();
-        let hits: Vec<Option<f64>> = rays
-            .par_iter()
-            .map(|&ray| terrain.hit(figure, lens.eye_m, ray))
-            .collect();
-        let seen = hits.iter().flatten();
-        let nearest_m = seen.clone().fold(f64::INFINITY, |a: f64, &b| a.min(b));
-        let farthest_m = seen.fold(0.0, |a: f64, &b| a.max(b));
-        assert!(farthest_m > 0.0, "{pose:?} sees nothing but sky");
+    pub fn new(cast: &Cast, kind: DepthKind) -> Self {
+        let seen = cast.rays.iter().filter_map(|(_, hit)| *hit);
+        let nearest_m = seen.clone().fold(f64::INFINITY, f64::min);
+        let farthest_m = seen.fold(0.0, f64::max);
         let range = match kind {
             DepthKind::Reversed => DepthRange::ReversedInfinite {
                 near_m: (0.1 * nearest_m).clamp(0.01, 1.0),
@@ -173,36 +211,35 @@ impl Surface {
                 far_m: 2.0 * farthest_m,
             },
         };
-        let lens = Lens::new(figure, pose, size_px, range);
-        let depths: Vec<f32> = hits
+        let lens = Lens::new(&cast.figure, &cast.pose, cast.size_px, range);
+        let depths: Vec<f32> = cast
+            .rays
             .iter()
-            .map(|hit| hit.map_or(range.cleared(), |t| lens.stored_depth(t)))
+            .map(|(_, hit)| hit.map_or(range.cleared(), |t| lens.stored_depth(t)))
             .collect();
-        let points_m = hits
+        let points_m = cast
+            .rays
             .iter()
-            .zip(&rays)
             .zip(&depths)
-            .map(|((hit, ray), &depth)| {
+            .map(|(&(ray, hit), &depth)| {
                 // Over terrain the surface is what the buffer holds, over the bare ellipsoid the hit.
-                let exact_m = (*hit)?;
-                let t = if terrain == Terrain::Bare {
-                    exact_m
-                } else {
-                    lens.distance_m(depth)
+                let t = match cast.terrain {
+                    Terrain::Bare => hit?,
+                    _ => hit.map(|_| lens.distance_m(depth))?,
                 };
-                Some(lens.eye_m + *ray * t)
+                Some(lens.eye_m + ray * t)
             })
             .collect();
         Self {
             lens,
             range,
-            terrain,
+            terrain: cast.terrain,
             depths,
             points_m,
         }
     }
 
-    pub fn size_px(&self) -> glam::UVec2 {
+    pub fn size_px(&self) -> UVec2 {
         self.lens.size_px
     }
 

@@ -1,0 +1,103 @@
+//! One way of drawing the fills, from the ground to the finished frame.
+
+use globefill::{
+    FillMesh, FillStyle, Frame, FrameStats, MeshId, Renderer, RendererOptions, View, wgpu,
+};
+
+use crate::{
+    gpu::Gpu,
+    ground::{Ground, GroundPipelines},
+    targets::Targets,
+};
+
+/// Targets, and a renderer that matches them.
+pub struct Drawing {
+    pub targets: Targets,
+    pipelines: GroundPipelines,
+    /// What the fills are blended with.
+    background: Background,
+    renderer: Renderer,
+    view: View,
+    mesh: MeshId,
+}
+
+/// What lies under the fills.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Background {
+    /// The ground's picture.
+    Ground,
+    /// Zero: only the fills show.
+    Nothing,
+}
+
+impl Drawing {
+    pub fn new(
+        gpu: &Gpu,
+        ground: &Ground,
+        targets: Targets,
+        background: Background,
+        mesh: FillMesh,
+        count: globefill::CountTechnique,
+    ) -> Result<Self, String> {
+        let options = RendererOptions {
+            color_format: targets.format.color,
+            depth_format: targets.format.depth,
+            depth: targets.format.convention,
+            sample_count: targets.format.sample_count,
+            count,
+        };
+        let mut renderer =
+            Renderer::new(&gpu.device, options).map_err(|error| error.to_string())?;
+        let mesh = gpu.allocate("the regions", || renderer.insert(mesh))?;
+        Ok(Self {
+            pipelines: ground.pipelines(gpu, &targets.format),
+            targets,
+            background,
+            renderer,
+            view: View::default(),
+            mesh,
+        })
+    }
+
+    pub fn set_style(&mut self, fill: u32, style: FillStyle) -> Result<(), String> {
+        self.renderer
+            .set_style(self.mesh, fill, style)
+            .map_err(|error| error.to_string())
+    }
+
+    /// Draws the ground alone and waits for it.
+    pub fn draw_ground(&self, gpu: &Gpu, ground: &Ground) -> Result<(), String> {
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        self.targets
+            .draw_ground(&mut encoder, ground, &self.pipelines, true);
+        gpu.run(encoder)
+    }
+
+    /// Draws ground and fills and waits for them.
+    pub fn draw(
+        &mut self,
+        gpu: &Gpu,
+        ground: &Ground,
+        frame: &Frame,
+    ) -> Result<FrameStats, String> {
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        self.targets
+            .draw_ground(&mut encoder, ground, &self.pipelines, false);
+        let stats = self
+            .renderer
+            .prepare(&gpu.queue, &mut self.view, frame)
+            .map_err(|error| error.to_string())?;
+        self.renderer
+            .count(&self.view, &mut encoder, &self.targets.depth_view);
+        {
+            let load = match self.background {
+                Background::Ground => wgpu::LoadOp::Load,
+                Background::Nothing => wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+            };
+            let mut pass = self.targets.fill_pass(&mut encoder, load);
+            self.renderer.resolve(&self.view, &mut pass);
+        }
+        gpu.run(encoder)?;
+        Ok(stats)
+    }
+}

@@ -1,0 +1,99 @@
+//! What is measured: covered pixels, their fills, surface positions, times.
+
+use std::time::Instant;
+
+use globefill::{FillStyle, Frame, FrameStats};
+
+use crate::{camera::Eye, drawing::Drawing, gpu::Gpu, ground::Ground};
+
+/// Frames drawn before timing starts: the first ones compile shaders and allocate.
+const WARM_UP: u32 = 3;
+
+/// An opaque colour that stands for a fill: its index counted from 1, in red and green.
+pub fn identity_style(fill: u32) -> FillStyle {
+    let [low, high, ..] = (fill + 1).to_le_bytes();
+    let channel = |byte: u8| f32::from(byte) / 255.0;
+    FillStyle {
+        color: [channel(low), channel(high), 0.0, 1.0],
+        ..Default::default()
+    }
+}
+
+/// The fill of every pixel, counted from 1; 0 for none.
+pub fn identities(gpu: &Gpu, drawing: &Drawing) -> Result<Vec<u16>, String> {
+    let texels = gpu.read_texture(&drawing.targets.color)?;
+    let (pixels, _) = texels.as_chunks::<4>();
+    Ok(pixels
+        .iter()
+        .map(|pixel| u16::from_le_bytes([pixel[0], pixel[1]]))
+        .collect())
+}
+
+/// The surface point in the depth buffer at every pixel's centre; `None` for the sky.
+pub fn positions(
+    gpu: &Gpu,
+    drawing: &Drawing,
+    eye: &Eye,
+) -> Result<Vec<Option<glam::DVec3>>, String> {
+    let texels = gpu.read_texture(&drawing.targets.depth)?;
+    let (depths, _) = texels.as_chunks::<4>();
+    let width = eye.lens.size_px.x;
+    Ok((0..)
+        .zip(depths)
+        .map(|(index, depth)| {
+            eye.surface_ecef_m(index % width, index / width, f32::from_le_bytes(*depth))
+        })
+        .collect())
+}
+
+/// Median times of a frame.
+pub struct Times {
+    /// With fills: everything from `prepare` until the GPU is idle.
+    pub frame_ms: f64,
+    /// The ground alone.
+    pub globe_ms: f64,
+    /// Of the last frame with fills.
+    pub stats: FrameStats,
+}
+
+/// Draws `frames` frames with fills and as many without, in turn.
+pub fn times(
+    gpu: &Gpu,
+    ground: &Ground,
+    drawing: &mut Drawing,
+    frame: &Frame,
+    frames: u32,
+    mut progress: impl FnMut(),
+) -> Result<Times, String> {
+    let mut with_fills = Vec::new();
+    let mut without = Vec::new();
+    let mut stats = FrameStats::default();
+    for index in 0..WARM_UP + frames {
+        let start = Instant::now();
+        drawing.draw_ground(gpu, ground)?;
+        let ground_ms = start.elapsed().as_secs_f64() * 1e3;
+        let start = Instant::now();
+        stats = drawing.draw(gpu, ground, frame)?;
+        let frame_ms = start.elapsed().as_secs_f64() * 1e3;
+        if index >= WARM_UP {
+            without.push(ground_ms);
+            with_fills.push(frame_ms);
+        }
+        progress();
+    }
+    Ok(Times {
+        frame_ms: median(with_fills),
+        globe_ms: median(without),
+        stats,
+    })
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    let middle = values.len() / 2;
+    if values.len() % 2 == 1 {
+        values[middle]
+    } else {
+        (values[middle - 1] + values[middle]) / 2.0
+    }
+}

@@ -1,0 +1,63 @@
+//! Colours by which neighbours can be told apart.
+
+use globefill::FillMesh;
+
+/// Pleasant on land and on water, distinct from each other; sRGB.
+const COLORS: [[u8; 3]; 8] = [
+    [226, 106, 88],
+    [240, 178, 72],
+    [122, 184, 98],
+    [72, 168, 182],
+    [112, 126, 204],
+    [186, 112, 190],
+    [236, 136, 160],
+    [196, 204, 96],
+];
+
+const OPACITY: f32 = 0.5;
+
+/// A colour for every fill, linear RGB and alpha: no two fills that share a border have the same,
+/// unless one has eight neighbours of eight colours.
+pub fn colors(mesh: &FillMesh) -> Vec<[f32; 4]> {
+    let mut neighbours = vec![Vec::new(); mesh.fills.len()];
+    let fill_of = |piece: u32| mesh.pieces[piece as usize].fill;
+    for arc in &mesh.arcs {
+        if let (Some(left), Some(right)) = (arc.left, arc.right) {
+            let (left, right) = (fill_of(left), fill_of(right));
+            neighbours[left as usize].push(right as usize);
+            neighbours[right as usize].push(left as usize);
+        }
+    }
+    let mut chosen: Vec<usize> = Vec::with_capacity(mesh.fills.len());
+    for (fill, beside) in neighbours.iter().enumerate() {
+        let taken = |color: usize| {
+            beside
+                .iter()
+                .any(|&other| other < fill && chosen[other] == color)
+        };
+        // Starting elsewhere for every fill spreads the colours over the map.
+        let first = fill * 5 % COLORS.len();
+        let color = (0..COLORS.len())
+            .map(|step| (first + step) % COLORS.len())
+            .find(|&color| !taken(color))
+            .unwrap_or(first);
+        chosen.push(color);
+    }
+    chosen
+        .into_iter()
+        .map(|color| {
+            let [red, green, blue] = COLORS[color].map(linear);
+            [red, green, blue, OPACITY]
+        })
+        .collect()
+}
+
+/// The linear value of an sRGB byte (IEC 61966-2-1).
+fn linear(byte: u8) -> f32 {
+    let value = f32::from(byte) / 255.0;
+    if value <= 0.04045 {
+        value / 12.92
+    } else {
+        ((value + 0.055) / 1.055).powf(2.4)
+    }
+}

@@ -1,0 +1,81 @@
+//! Runs the example `render` as a user does.
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    process::{Command, Output},
+};
+
+/// A directory of its own for one test, removed at the end.
+pub struct Workplace {
+    directory: PathBuf,
+}
+
+impl Workplace {
+    pub fn new(name: &str) -> Self {
+        let directory =
+            std::env::temp_dir().join(format!("globefill-{name}-{}", std::process::id()));
+        fs::create_dir_all(&directory).expect("a temporary directory");
+        Self { directory }
+    }
+
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.directory.join(name)
+    }
+
+    pub fn write(&self, name: &str, content: &str) {
+        fs::write(self.path(name), content).expect("a temporary file");
+    }
+
+    /// Names of all files, sorted.
+    #[allow(dead_code)]
+    pub fn files(&self) -> Vec<String> {
+        let entries = fs::read_dir(&self.directory).expect("the temporary directory");
+        let mut names: Vec<String> = entries
+            .map(|entry| {
+                entry
+                    .expect("an entry")
+                    .file_name()
+                    .to_string_lossy()
+                    .into_owned()
+            })
+            .collect();
+        names.sort();
+        names
+    }
+
+    /// Runs `render` there.
+    pub fn render(&self, arguments: &[&str]) -> Output {
+        Command::new(example())
+            .args(arguments)
+            .current_dir(&self.directory)
+            // Else the window system's loader complains on machines without one.
+            .env("XDG_RUNTIME_DIR", &self.directory)
+            .output()
+            .expect("the example starts")
+    }
+}
+
+impl Drop for Workplace {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.directory);
+    }
+}
+
+/// `cargo test` builds the examples beside the tests' directory.
+fn example() -> PathBuf {
+    let test = std::env::current_exe().expect("this test's own path");
+    let profile = test
+        .parent()
+        .and_then(Path::parent)
+        .expect("target/PROFILE/deps/TEST");
+    let example = profile
+        .join("examples")
+        .join(format!("render{}", std::env::consts::EXE_SUFFIX));
+    assert!(
+        example.exists(),
+        "{} is missing: run `cargo build --example render` first, as plain `cargo test` does",
+        example.display()
+    );
+    example
+}
