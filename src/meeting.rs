@@ -116,7 +116,7 @@ fn curved_meetings(
         }
         if let Some(t) = a.crossing(&b) {
             let point = LatticePoint::nearest(first.lon_lat(a.t0 + t * (a.t1 - a.t0)));
-            found(Meeting::Crossing(point.canonical()));
+            found(Meeting::Crossing(on_grid_lines(edges, point.canonical())));
         } else if a.length_m().max(b.length_m()) < TOUCH_M {
             touch = Some(touching(edges, first, &a, &b));
         } else if a.length_m() + a.radius_m >= b.length_m() + b.radius_m {
@@ -143,7 +143,22 @@ fn touching(edges: [&Edge; 2], first: &CurveOn, a: &Hull, b: &Hull) -> Meeting {
     if let Some(node) = node_of(edges[0], a) {
         return Meeting::NodeOnSecond(node);
     }
-    Meeting::Crossing(LatticePoint::nearest(first.lon_lat(a.t0)).canonical())
+    let point = LatticePoint::nearest(first.lon_lat(a.t0)).canonical();
+    Meeting::Crossing(on_grid_lines(edges, point))
+}
+
+/// A point common to two edges, put exactly on those that are meridians or parallels: splitting
+/// them there must not bend them.
+fn on_grid_lines(edges: [&Edge; 2], mut point: LatticePoint) -> LatticePoint {
+    for edge in edges.iter().filter(|edge| edge.kind == EdgeKind::Straight) {
+        if edge.turn() == 0 {
+            point.lon = edge.start.lon;
+        }
+        if edge.start.lat == edge.end.lat {
+            point.lat = edge.start.lat;
+        }
+    }
+    point
 }
 
 /// A piece of a curve: it lies within `radius_m` of its chord.
@@ -198,8 +213,9 @@ impl Hull {
                 .all(|side| side.abs() > plane.deviation_m * 1.01 + 1e-7);
             (clear && sides[0] * sides[1] < 0.0).then_some(sides)
         };
-        // Beyond a kilometre the hulls are too fat for "on both sides" to mean a single crossing.
-        if self.length_m().max(other.length_m()) > 1_000.0 {
+        // Longer pieces are so bent that "on both sides" need not mean a single crossing, and the
+        // chords' common point would lie beside the curves': here by 10⁻⁶ m at most.
+        if self.length_m().max(other.length_m()) > 20.0 {
             return None;
         }
         sides(self, other)?;

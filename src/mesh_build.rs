@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use crate::{
     arcs::{Chain, EdgeSides, chains},
     authalic::Authalic,
-    boundary_graph::{BoundaryGraph, DirectedEdge},
+    boundary_graph::BoundaryGraph,
     densify::{DenseChain, densify},
     ellipsoid::Ellipsoid,
     error::RegionError,
@@ -20,6 +20,7 @@ use crate::{
     rings::{RingWalk, walk_ring},
     simple_loops::{Component, even_odd_components},
     triangulate::{Caps, triangulate},
+    vertex_runs::VertexRuns,
 };
 
 /// Runs the whole pipeline.
@@ -212,14 +213,6 @@ fn crossing_pieces(crossing: PolygonPairs, piece_of_polygon: &[Option<u32>]) -> 
         .collect()
 }
 
-/// Where the vertices of the graph's nodes and edges are in the mesh.
-struct VertexRuns {
-    /// Per node one of its vertices.
-    node: Vec<u32>,
-    /// Per edge its first and its last vertex, from its smaller node to its greater.
-    edge: Vec<(u32, u32)>,
-}
-
 impl FillMesh {
     /// Adds fills and pieces; answers the piece of each polygon.
     fn add_pieces(
@@ -270,10 +263,7 @@ impl FillMesh {
                 true => DenseChain::default(),
             })
             .collect();
-        let mut runs = VertexRuns {
-            node: vec![u32::MAX; graph.nodes.len()],
-            edge: vec![(u32::MAX, u32::MAX); graph.edges.len()],
-        };
+        let mut runs = VertexRuns::new(graph);
         for (chain, dense) in chains
             .iter()
             .zip(&dense)
@@ -443,50 +433,4 @@ fn edge_margin_m(ellipsoid: &Ellipsoid, vertices: &[DVec3], boundary: &[Boundary
 /// from the chord to the surface: their directions differ by the flattening at most, taken twice.
 fn skew_m(ellipsoid: &Ellipsoid, sag_m: f64) -> f64 {
     2.0 * ellipsoid.flattening().abs() * sag_m
-}
-
-impl VertexRuns {
-    fn add(&mut self, graph: &BoundaryGraph, chain: &Chain, dense: &DenseChain, first_vertex: u32) {
-        let end = dense.vertices.len() as u32 - 1;
-        let starts = dense
-            .edge_starts
-            .iter()
-            .copied()
-            .chain([end])
-            .map(|start| first_vertex + start);
-        let starts: Vec<u32> = starts.collect();
-        for (&edge, run) in chain.edges.iter().zip(starts.windows(2)) {
-            self.node[graph.start_node(edge) as usize] = run[0];
-            self.node[graph.end_node(edge) as usize] = run[1];
-            self.edge[edge.edge() as usize] = if edge.is_forward() {
-                (run[0], run[1])
-            } else {
-                (run[1], run[0])
-            };
-        }
-    }
-
-    /// The vertices of an edge as it is walked.
-    fn along(&self, edge: DirectedEdge) -> impl Iterator<Item = u32> + use<> {
-        let (from, to) = self.edge[edge.edge() as usize];
-        let (from, to) = if edge.is_forward() {
-            (from, to)
-        } else {
-            (to, from)
-        };
-        let step = move |k: u32| if from <= to { from + k } else { from - k };
-        (0..=from.abs_diff(to)).map(step)
-    }
-
-    /// The vertices of a loop, one for each position.
-    fn loop_vertices(&self, graph: &BoundaryGraph, edges: &[DirectedEdge]) -> Vec<u32> {
-        let mut vertices = Vec::with_capacity(edges.len());
-        for &edge in edges {
-            let (from, to) = self.edge[edge.edge() as usize];
-            vertices.push(self.node[graph.start_node(edge) as usize]);
-            let inner = from.abs_diff(to) as usize - 1;
-            vertices.extend(self.along(edge).skip(1).take(inner));
-        }
-        vertices
-    }
 }

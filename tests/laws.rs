@@ -8,7 +8,7 @@ use globefill::{
     countries::{Country, Dataset},
     glam::DVec3,
 };
-use proptest::prelude::*;
+use proptest::{prelude::*, test_runner::RngSeed};
 
 fn build(regions: &[Region]) -> FillMesh {
     let mesh = FillMesh::build(regions, &MeshOptions::default()).unwrap();
@@ -808,17 +808,17 @@ fn covering(mesh: &FillMesh, piece: usize, direction: DVec3) -> i32 {
     covered.sum()
 }
 
-/// Directions spread evenly over the sphere.
+/// Directions spread evenly over the sphere, none on a round meridian or parallel.
 fn directions(count: u32) -> impl Iterator<Item = DVec3> {
     (0..count).map(move |k| {
-        let z = 1.0 - (2.0 * f64::from(k) + 1.0) / f64::from(count);
-        let (sin, cos) = (f64::from(k) * 2.399_963_229_728_653).sin_cos();
+        let z = 1.0 - (2.0 * f64::from(k) + 1.017) / f64::from(count);
+        let (sin, cos) = (0.123_4 + f64::from(k) * 2.399_963_229_728_653).sin_cos();
         DVec3::new(cos * (1.0 - z * z).sqrt(), sin * (1.0 - z * z).sqrt(), z)
     })
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 250, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 250, failure_persistence: None, rng_seed: RngSeed::Fixed(1), ..ProptestConfig::default() })]
 
     /// Rings on a coarse grid touch, cross and retrace themselves, run through poles and round them.
     #[test]
