@@ -43,3 +43,14 @@ fn fs_cover_separate(@location(0) @interpolate(flat) weight: vec4<f32>) -> Plane
     let code = abs(weight);
     return Planes(code.x, code.y, code.z, code.w);
 }
+
+// No fill's code: resolve looks at the neighbours.
+@fragment
+fn fs_reject_packed() -> @location(0) vec4<f32> {
+    return vec4<f32>(-1.0);
+}
+
+@fragment
+fn fs_reject_separate() -> Planes {
+    return Planes(-1.0, -1.0, -1.0, -1.0);
+}

@@ -3,7 +3,7 @@
 use crate::{
     gpu_mesh::GpuMesh,
     options::CountTechnique,
-    pipelines::{Input, Key, Pipelines, Planes},
+    pipelines::{Input, Key, ONE_COUNTED, Pipelines, Planes},
     select::LayerDraws,
     targets::{LayerTarget, Targets},
     view::{LayerView, MeshView, Prepared},
@@ -53,6 +53,11 @@ pub(crate) fn keys(
                     planes,
                     unclipped,
                 });
+                keys.push(Key::Reject {
+                    input,
+                    planes,
+                    unclipped,
+                });
             }
         }
     }
@@ -96,20 +101,20 @@ pub(crate) fn cost(view: &MeshView) -> Cost {
                 .for_each(|run| cost.add(run.indices.len(), 1));
         }
     }
-    // Count and cover draw the same.
+    // Count, cover and reject draw the same.
     for volume in view.volumes.iter().flatten() {
         for triangles in &volume.caps {
-            cost.add(3 * triangles.len(), 4);
+            cost.add(3 * triangles.len(), 6);
         }
         for walls in [&volume.left_of, &volume.right_of] {
             walls
                 .slots
                 .iter()
-                .for_each(|slots| cost.add(2 * slots.len(), 2));
+                .for_each(|slots| cost.add(2 * slots.len(), 3));
             walls
                 .patches
                 .iter()
-                .for_each(|indices| cost.add(indices.len(), 2));
+                .for_each(|indices| cost.add(indices.len(), 3));
         }
     }
     cost
@@ -213,7 +218,7 @@ impl Recorder<'_> {
             layout: &self.pipelines.depth_layout,
             entries: &[wgpu::BindGroupEntry {
                 binding: 0,
-                resource: wgpu::BindingResource::TextureView(depth),
+                resource: wgpu::BindingResource::TextureView(&depth_only(depth)),
             }],
         });
         let cleared = wgpu::RenderPassDepthStencilAttachment {
@@ -250,11 +255,13 @@ impl Recorder<'_> {
         };
         // Counting writes no colour but keeps the targets attached: one pass serves all fills.
         let mut pass = begin(encoder, "globefill stencil", Some(target), attachment);
+        pass.set_stencil_reference(ONE_COUNTED);
         for drawn in &self.meshes {
             pass.set_bind_group(0, &drawn.view.frame_group, &[]);
             for volume in &drawn.view.volumes[index] {
-                self.draw_volume(&mut pass, drawn, index, volume, Stage::Count);
-                self.draw_volume(&mut pass, drawn, index, volume, Stage::Cover);
+                for stage in [Stage::Count, Stage::Cover, Stage::Reject] {
+                    self.draw_volume(&mut pass, drawn, index, volume, stage);
+                }
             }
         }
     }
@@ -277,6 +284,11 @@ impl Recorder<'_> {
                 unclipped: self.prepared.unclipped,
             },
             Stage::Cover => Key::Cover {
+                input,
+                planes,
+                unclipped: self.prepared.unclipped,
+            },
+            Stage::Reject => Key::Reject {
                 input,
                 planes,
                 unclipped: self.prepared.unclipped,
@@ -315,10 +327,19 @@ impl Recorder<'_> {
     }
 }
 
-#[derive(Clone, Copy, PartialEq)]
+/// The depth aspect of the texture that `view` shows: stencils cannot be bound beside it.
+fn depth_only(view: &wgpu::TextureView) -> wgpu::TextureView {
+    view.texture().create_view(&wgpu::TextureViewDescriptor {
+        aspect: wgpu::TextureAspect::DepthOnly,
+        ..Default::default()
+    })
+}
+
+#[derive(Clone, Copy)]
 enum Stage {
     Count,
     Cover,
+    Reject,
 }
 
 fn begin<'a>(

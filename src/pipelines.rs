@@ -15,6 +15,10 @@ pub(crate) const FAR_PLANE_FEATURES: wgpu::Features =
 /// Depth and stencil of the stencil technique.
 pub(crate) const STENCIL_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32FloatStencil8;
 
+/// The stencil reference while volumes are painted: the count inside one volume. Counts are compared
+/// as reference `compare` count; −1 wraps to 255.
+pub(crate) const ONE_COUNTED: u32 = 1;
+
 /// What is drawn: each input kind has its own vertex entry point and topology.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Input {
@@ -76,8 +80,15 @@ pub(crate) enum Key {
         flipped: bool,
         unclipped: bool,
     },
-    /// Paints a code where the stencil counted, and clears the stencil.
+    /// Paints a code where the stencil counted one, and clears the stencil there.
     Cover {
+        input: Input,
+        planes: Planes,
+        unclipped: bool,
+    },
+    /// Paints what is no code where the stencil counted neither none nor one, and clears it: winding
+    /// sums are invalid at such pixels too, and resolve treats both alike.
+    Reject {
         input: Input,
         planes: Planes,
         unclipped: bool,
@@ -183,13 +194,10 @@ impl Pipelines {
                 let mut recipe = self.volume_recipe(input, vertex_entry(input), unclipped);
                 recipe.fragment = Some(self.planes_entry("fs_count"));
                 recipe.targets = self.targets(planes, None, wgpu::ColorWrites::empty());
-                if flipped {
-                    recipe.primitive.front_face = wgpu::FrontFace::Cw;
-                }
                 recipe.depth_stencil = Some(depth_stencil(
                     STENCIL_FORMAT,
                     self.behind(),
-                    counting_stencil(),
+                    counting_stencil(flipped),
                 ));
                 self.build(device, &recipe)
             }
@@ -198,14 +206,19 @@ impl Pipelines {
                 planes,
                 unclipped,
             } => {
-                let mut recipe = self.volume_recipe(input, cover_entry(input), unclipped);
+                let mut recipe = self.cover_recipe(input, planes, unclipped);
                 recipe.fragment = Some(self.planes_entry("fs_cover"));
-                recipe.targets = self.targets(planes, None, wgpu::ColorWrites::ALL);
-                recipe.depth_stencil = Some(depth_stencil(
-                    STENCIL_FORMAT,
-                    wgpu::CompareFunction::Always,
-                    covering_stencil(),
-                ));
+                recipe.depth_stencil = Some(painting(wgpu::CompareFunction::Equal));
+                self.build(device, &recipe)
+            }
+            Key::Reject {
+                input,
+                planes,
+                unclipped,
+            } => {
+                let mut recipe = self.cover_recipe(input, planes, unclipped);
+                recipe.fragment = Some(self.planes_entry("fs_reject"));
+                recipe.depth_stencil = Some(painting(wgpu::CompareFunction::Less));
                 self.build(device, &recipe)
             }
             Key::CopyDepth => {
@@ -298,6 +311,12 @@ impl Pipelines {
             },
             depth_stencil: None,
         }
+    }
+
+    fn cover_recipe(&self, input: Input, planes: Planes, unclipped: bool) -> Recipe<'_> {
+        let mut recipe = self.volume_recipe(input, cover_entry(input), unclipped);
+        recipe.targets = self.targets(planes, None, wgpu::ColorWrites::ALL);
+        recipe
     }
 
     fn screen_recipe<'a>(
@@ -403,35 +422,42 @@ fn depth_stencil(
     }
 }
 
-/// Behind the surface, back faces count up and front faces down (Heidmann's counting, z-fail).
-fn counting_stencil() -> wgpu::StencilState {
-    let face = |pass_op| wgpu::StencilFaceState {
+/// Behind the surface, faces seen from inside the volume count up and those seen from outside down
+/// (z-fail). What is flipped is the operations: `front_face` stays the same in all pipelines.
+fn counting_stencil(flipped: bool) -> wgpu::StencilState {
+    let face = |inside| wgpu::StencilFaceState {
         compare: wgpu::CompareFunction::Always,
         fail_op: wgpu::StencilOperation::Keep,
         depth_fail_op: wgpu::StencilOperation::Keep,
-        pass_op,
+        pass_op: if inside {
+            wgpu::StencilOperation::IncrementWrap
+        } else {
+            wgpu::StencilOperation::DecrementWrap
+        },
     };
     wgpu::StencilState {
-        front: face(wgpu::StencilOperation::DecrementWrap),
-        back: face(wgpu::StencilOperation::IncrementWrap),
+        front: face(flipped),
+        back: face(!flipped),
         read_mask: 0xff,
         write_mask: 0xff,
     }
 }
 
-fn covering_stencil() -> wgpu::StencilState {
+/// Paints where the stencil compares with [`ONE_COUNTED`], and clears it there.
+fn painting(compare: wgpu::CompareFunction) -> wgpu::DepthStencilState {
     let face = wgpu::StencilFaceState {
-        compare: wgpu::CompareFunction::NotEqual,
+        compare,
         fail_op: wgpu::StencilOperation::Keep,
         depth_fail_op: wgpu::StencilOperation::Keep,
         pass_op: wgpu::StencilOperation::Zero,
     };
-    wgpu::StencilState {
+    let stencil = wgpu::StencilState {
         front: face,
         back: face,
         read_mask: 0xff,
         write_mask: 0xff,
-    }
+    };
+    depth_stencil(STENCIL_FORMAT, wgpu::CompareFunction::Always, stencil)
 }
 
 fn shader(device: &wgpu::Device, label: &str, source: String) -> wgpu::ShaderModule {
