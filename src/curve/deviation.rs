@@ -19,7 +19,7 @@ impl CurveOn {
     /// p = x(1−x)·q with q quadratic, so |p| ≤ ¼·max|Bernstein coefficients of q|; and |f − p| ≤
     /// max|f⁽⁵⁾|/5!·0.00355, the last factor being the maximum of |x(x−¼)(x−½)(x−¾)(x−1)|. Short
     /// pieces make do with the parabola through f at 0, ½, 1 and max|f‴|/3!·0.0482. The
-    /// derivatives are bounded per kind in [`Self::derivative_bound`]. To this the twist of the ruled
+    /// derivatives are bounded per kind in `derivative_bound`. To this the twist of the ruled
     /// surface out of that plane is added, up to the height where it meets the ellipsoid.
     pub fn deviation_bound_m(&self, t0: f64, t1: f64) -> f64 {
         let (start, end) = (self.ecef(t0), self.ecef(t1));
