@@ -19,7 +19,10 @@ pub(crate) struct BoundaryGraph {
     /// Undirected edges, walked from `from` to `to` with `from < to`.
     pub(crate) edges: Vec<Edge>,
     node_of_point: FxHashMap<LatticePoint, u32>,
-    edge_of_key: FxHashMap<Edge, u32>,
+    /// By its ends, smaller node first, the first edge between them.
+    edge_of_ends: FxHashMap<u64, u32>,
+    /// Further edges between ends that have one already: of another kind, or the other way round.
+    further: FxHashMap<Edge, u32>,
 }
 
 /// An edge between two different nodes.
@@ -44,6 +47,11 @@ impl Edge {
             end: LatticePoint::new(self.start.lon + turn, self.start.lat),
             kind: self.kind,
         }
+    }
+
+    /// Whether the edge is also an edge of `kind` between its ends.
+    pub(crate) fn is_also(&self, kind: EdgeKind) -> bool {
+        self.kind == kind || self.kind == plainest_kind(kind, self.start, self.end)
     }
 
     /// Signed difference in longitude, lattice steps.
@@ -99,7 +107,8 @@ impl BoundaryGraph {
             nodes: Vec::with_capacity(vertices),
             edges: Vec::with_capacity(vertices),
             node_of_point: FxHashMap::with_capacity_and_hasher(vertices, Default::default()),
-            edge_of_key: FxHashMap::with_capacity_and_hasher(vertices, Default::default()),
+            edge_of_ends: FxHashMap::with_capacity_and_hasher(vertices, Default::default()),
+            further: FxHashMap::default(),
         }
     }
 
@@ -118,23 +127,43 @@ impl BoundaryGraph {
 
     /// The edge along a curve between lattice points; none if it has no length.
     pub(crate) fn insert_curve(&mut self, curve: &Curve) -> Option<DirectedEdge> {
-        let start = LatticePoint::nearest(curve.from);
-        let mut end = LatticePoint::nearest(curve.to);
-        // Curves to a pole without a turn of their own get their meridian in `insert`.
+        let ends = [curve.from, curve.to].map(|end| self.node(LatticePoint::exactly(end)));
+        self.insert_curve_between(curve, ends)
+    }
+
+    /// [`Self::insert_curve`] for who knows the nodes at its ends.
+    pub(crate) fn insert_curve_between(
+        &mut self,
+        curve: &Curve,
+        ends: [u32; 2],
+    ) -> Option<DirectedEdge> {
+        let start = LatticePoint::exactly(curve.from);
+        let mut end = LatticePoint::exactly(curve.to);
+        // Curves to a pole without a turn of their own get their meridian in `insert_between`.
         if curve.kind == EdgeKind::Straight || !(start.is_pole() || end.is_pole()) {
             end.lon = start.lon + steps(curve.turn_deg);
         }
-        self.insert(curve.kind, start, end)
+        self.insert_between(curve.kind, start, end, ends)
     }
 
     /// The edge from `start` to `end`, unwrapped points of the lon/lat plane; none if it has no length.
     pub(crate) fn insert(
         &mut self,
         kind: EdgeKind,
+        start: LatticePoint,
+        end: LatticePoint,
+    ) -> Option<DirectedEdge> {
+        let ends = [start, end].map(|end| self.node(end));
+        self.insert_between(kind, start, end, ends)
+    }
+
+    fn insert_between(
+        &mut self,
+        kind: EdgeKind,
         mut start: LatticePoint,
         mut end: LatticePoint,
+        [from, to]: [u32; 2],
     ) -> Option<DirectedEdge> {
-        let (from, to) = (self.node(start), self.node(end));
         if from == to {
             return None;
         }
@@ -147,8 +176,9 @@ impl BoundaryGraph {
             }
         }
         let turn = wrap(start.lon) - start.lon;
-        let start = LatticePoint::new(start.lon + turn, start.lat);
-        let end = LatticePoint::new(end.lon + turn, end.lat);
+        start.lon += turn;
+        end.lon += turn;
+        let kind = plainest_kind(kind, start, end);
         let directed = Edge {
             from,
             to,
@@ -162,12 +192,22 @@ impl BoundaryGraph {
         } else {
             directed.reversed()
         };
-        let next = self.edges.len() as u32;
-        let id = *self.edge_of_key.entry(edge).or_insert(next);
-        if id == next {
+        let id = self.id_of(edge);
+        if id as usize == self.edges.len() {
             self.edges.push(edge);
         }
         Some(DirectedEdge::new(id, forward))
+    }
+
+    /// The number of an edge; the next free one if it is new.
+    fn id_of(&mut self, edge: Edge) -> u32 {
+        let next = self.edges.len() as u32;
+        let ends = u64::from(edge.from) << 32 | u64::from(edge.to);
+        let first = *self.edge_of_ends.entry(ends).or_insert(next);
+        if first == next || self.edges[first as usize] == edge {
+            return first;
+        }
+        *self.further.entry(edge).or_insert(next)
     }
 
     /// The edge as it is walked.
@@ -195,6 +235,18 @@ impl BoundaryGraph {
 
     pub(crate) fn position(&self, node: u32) -> LonLat {
         self.nodes[node as usize].lon_lat()
+    }
+}
+
+/// Meridians, the equator and, for rhumbs, all parallels are straight on the lon/lat plane too: as
+/// straight edges they are met exactly, and found by neighbours of another kind.
+fn plainest_kind(kind: EdgeKind, start: LatticePoint, end: LatticePoint) -> EdgeKind {
+    let on_meridian = start.lon == end.lon;
+    let on_parallel = start.lat == end.lat;
+    match kind {
+        EdgeKind::Geodesic if on_meridian || on_parallel && start.lat == 0 => EdgeKind::Straight,
+        EdgeKind::Rhumb if on_meridian || on_parallel => EdgeKind::Straight,
+        kind => kind,
     }
 }
 

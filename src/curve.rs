@@ -1,5 +1,7 @@
 //! The true edge between two vertices, as a curve that can be evaluated anywhere.
 
+mod deviation;
+
 use geographiclib_rs::{Geodesic, GeodesicLine, geodesic_capability as capability};
 use glam::DVec3;
 
@@ -244,89 +246,6 @@ impl CurveOn {
             self.ellipsoid.ecef(self.lon_lat(t), 0.0)
         }
     }
-
-    /// Upper bound, metres, on the distance along the surface between the true curve on
-    /// `t0` … `t1` and the wall drawn for it, the ruled surface through the chord whose ruling at
-    /// either end is the geodetic normal there.
-    ///
-    /// Infinite where a piece is too long to say: more than 90° of longitude or arc. Proven for
-    /// flattenings up to 1/50. Seldom more than twice the true deviation, plus 0.01 m × (piece/2°)⁵.
-    ///
-    /// *Proof.* Let f be the distance from the plane through the chord that holds the mean normal,
-    /// and p the quartic through f at 0, ¼, ½, ¾, 1 of the piece. As f vanishes at both ends,
-    /// p = x(1−x)·q with q quadratic, so |p| ≤ ¼·max|Bernstein coefficients of q|; and |f − p| ≤
-    /// max|f⁽⁵⁾|/5!·0.00355, the last factor being the maximum of |x(x−¼)(x−½)(x−¾)(x−1)|. The
-    /// derivative is bounded per kind in [`Self::fifth_derivative`]. To this the twist of the ruled
-    /// surface out of that plane is added, up to the height where it meets the ellipsoid.
-    pub fn deviation_bound_m(&self, t0: f64, t1: f64) -> f64 {
-        let (start, end) = (self.ecef(t0), self.ecef(t1));
-        let start_normal = self.ellipsoid.normal_at_surface(start);
-        let end_normal = self.ellipsoid.normal_at_surface(end);
-        let chord = end - start;
-        let across = chord.cross(start_normal + end_normal);
-        let share = t1 - t0;
-        let too_long =
-            self.curve.turn_deg.abs() * share > 90.0 || start_normal.dot(end_normal) < 0.0;
-        if too_long || across.length_squared() == 0.0 {
-            return f64::INFINITY;
-        }
-        let across = across.normalize();
-
-        let distance_at = |x: f64| (self.ecef(t0 + x * share) - start).dot(across);
-        let q = [
-            distance_at(0.25) * (16.0 / 3.0),
-            distance_at(0.5) * 4.0,
-            distance_at(0.75) * (16.0 / 3.0),
-        ];
-        let (first, last) = (
-            3.0 * q[0] - 3.0 * q[1] + q[2],
-            q[0] - 3.0 * q[1] + 3.0 * q[2],
-        );
-        let middle = 2.0 * q[1] - 0.5 * (first + last);
-        let quartic_m = 0.25 * first.abs().max(middle.abs()).max(last.abs());
-        let remainder_m = self.fifth_derivative(share) * (0.003_55 / 120.0);
-
-        let sag_m = self.ellipsoid.chord_sag_m(chord.length());
-        let twist_m = 0.5 * (end_normal - start_normal).dot(across).abs() * sag_m;
-        // Rounding of positions, amplified by the extrapolation to the ends.
-        let rounding_m = 1e-14 * self.ellipsoid.a_m;
-        let tilt = start_normal
-            .dot(across)
-            .abs()
-            .max(end_normal.dot(across).abs());
-        (quartic_m + remainder_m + twist_m + rounding_m) * 1.001 / (1.0 - tilt * tilt).sqrt()
-    }
-
-    /// Bound, metres, on the length of the position's fifth derivative by x, which runs from 0 to 1
-    /// over a `share` of the curve.
-    fn fifth_derivative(&self, share: f64) -> f64 {
-        let Curve {
-            from, to, turn_deg, ..
-        } = self.curve;
-        let a_m = self.ellipsoid.a_m.max(self.ellipsoid.b_m);
-        let turn = (turn_deg * share).to_radians().abs();
-        match &self.course {
-            // On the unit sphere the components are sums of sines and cosines of λ ± φ: each
-            // derivative brings at most one factor |Δλ| + |Δφ|, and the three components together
-            // √2. The ellipsoid adds e²/8·3⁵ at the third harmonic; 3 covers both up to f = 1/50.
-            Course::Linear => {
-                let rise = ((to.lat_deg - from.lat_deg) * share).to_radians().abs();
-                3.0 * a_m * (turn + rise).powi(5)
-            }
-            // (sech ψ cos λ, sech ψ sin λ, tanh ψ) is analytic in |Im ψ| < π/2. On the circle of
-            // radius 1/(|Δλ| + |Δψ|) about x it stays below 4.1 (|sech|, |tanh| ≤ 1/cos 1 = 1.85,
-            // √(|cos|² + |sin|²) ≤ 1.94), on the ellipsoid below 8; Cauchy's inequality does the rest.
-            Course::Rhumb(rhumb) => {
-                let climb = (rhumb.difference * share).abs();
-                120.0 * 8.0 * a_m * (turn + climb).powi(5)
-            }
-            // On the sphere (s/R)⁵; what the ellipsoid adds is of the order e².
-            Course::Geodesic(geodesic) => {
-                let b_m = self.ellipsoid.a_m.min(self.ellipsoid.b_m);
-                3.0 * a_m * (geodesic.length_m * share / b_m).powi(5)
-            }
-        }
-    }
 }
 
 #[cfg(test)]
@@ -342,76 +261,8 @@ mod tests {
         Curve::between(EdgeKind::Straight, from, to)
     }
 
-    /// Distance along the surface from `point` to the ruled wall, found by search: the level line
-    /// of the wall at the height of `point`'s horizon is scanned for its nearest point.
-    fn distance_to_wall_m(ellipsoid: &Ellipsoid, start: DVec3, end: DVec3, point: DVec3) -> f64 {
-        let [n0, n1, up] = [start, end, point].map(|p| ellipsoid.normal_at_surface(p));
-        let distance = |u: f64| {
-            let foot = start.lerp(end, u);
-            let ruling = n0.lerp(n1, u);
-            let on_wall = foot + ruling * ((point - foot).dot(up) / ruling.dot(up));
-            (on_wall - point).length()
-        };
-        let (mut low, mut high) = (-0.1, 1.1);
-        for _ in 0..90 {
-            let (left, right) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
-            if distance(left) < distance(right) {
-                high = right
-            } else {
-                low = left
-            }
-        }
-        distance(0.5 * (low + high))
-    }
-
-    fn check_deviation_bound(ellipsoid: &Ellipsoid, curve: Curve, t0: f64, t1: f64) {
-        let on = curve.on(ellipsoid);
-        let bound_m = on.deviation_bound_m(t0, t1);
-        if bound_m.is_infinite() {
-            return;
-        }
-        let (start, end) = (on.ecef(t0), on.ecef(t1));
-        let mut worst_m = 0.0_f64;
-        for step in 1..64 {
-            let point = on.ecef(t0 + (t1 - t0) * f64::from(step) / 64.0);
-            worst_m = worst_m.max(distance_to_wall_m(ellipsoid, start, end, point));
-        }
-        assert!(
-            worst_m <= bound_m + 2e-8,
-            "{curve:?} {t0} {t1}: {worst_m} > {bound_m}"
-        );
-    }
-
     proptest! {
         #![proptest_config(ProptestConfig { cases: 3000, failure_persistence: None, ..ProptestConfig::default() })]
-
-        #[test]
-        fn deviation_stays_below_its_bound(
-            kind in 0_usize..3,
-            mars in any::<bool>(),
-            from in (-180.0..180.0_f64, -1.0..1.0_f64),
-            way in (-1.0..1.0_f64, -1.0..1.0_f64),
-            shrink in 0.0..5.0_f64,
-            polar in any::<bool>(),
-            t in (0.0..1.0_f64, 0.0..1.0_f64),
-        ) {
-            let ellipsoid = if mars { Ellipsoid::MARS } else { Ellipsoid::WGS84 };
-            let reach_deg = 30.0 * 10_f64.powf(-shrink);
-            let lat_deg = if polar {
-                90.0_f64.copysign(from.1) * (1.0 - 10_f64.powf(-6.0 * from.1.abs()))
-            } else {
-                80.0 * from.1
-            };
-            let turn_deg = if polar { 80.0 * way.0 } else { reach_deg * way.0 };
-            let rise_deg = if polar { (90.0 - lat_deg.abs()) * 0.9 * way.1 } else { reach_deg * way.1 };
-            let curve = Curve::between(
-                KINDS[kind],
-                LonLat::new(from.0, lat_deg),
-                LonLat::new(from.0 + turn_deg, (lat_deg + rise_deg).clamp(-90.0, 90.0)),
-            );
-            check_deviation_bound(&ellipsoid, curve, 0.0, 1.0);
-            check_deviation_bound(&ellipsoid, curve, t.0.min(t.1), t.0.max(t.1));
-        }
 
         #[test]
         fn swapping_the_ends_reverses_the_curve(
@@ -448,22 +299,6 @@ mod tests {
                 prop_assert!(turn.sin().abs() < 1e-4 && turn.cos() > 0.0, "{curve:?} {turn}");
             }
         }
-    }
-
-    #[test]
-    fn bound_is_close_to_the_truth_for_ordinary_edges() {
-        // 3° of the 49th parallel lie 1.08 km beside the great ellipse.
-        let on = straight((-100.0, 49.0), (-97.0, 49.0)).on(&Ellipsoid::WGS84);
-        let bound_m = on.deviation_bound_m(0.0, 1.0);
-        assert!((1_070.0..1_120.0).contains(&bound_m), "{bound_m}");
-        // 1° of geodesic at 45°: 0.8 m at most, from the skew of the end normals.
-        let geodesic = Curve::between(
-            EdgeKind::Geodesic,
-            LonLat::new(0.0, 45.0),
-            LonLat::new(1.0, 45.7),
-        );
-        let bound_m = geodesic.on(&Ellipsoid::WGS84).deviation_bound_m(0.0, 1.0);
-        assert!(bound_m < 0.8, "{bound_m}");
     }
 
     #[test]

@@ -12,6 +12,8 @@ use crate::{
 
 /// Longest chord, in equatorial radii: 2° of arc, which sags 970 m on Earth.
 const MAX_CHORD: f64 = 2.0 / 180.0 * std::f64::consts::PI;
+/// Tighter tolerances are not met: they would only fill the memory.
+const MIN_TOLERANCE_M: f64 = 1e-3;
 /// A curve is halved at most this often: then its pieces are metres long whatever the tolerance.
 const MAX_DEPTH: u32 = 24;
 
@@ -37,6 +39,7 @@ pub(crate) fn densify(
     chain: &Chain,
     tolerance_m: f64,
 ) -> DenseChain {
+    let tolerance_m = tolerance_m.max(MIN_TOLERANCE_M);
     let mut dense = DenseChain::default();
     let ecef_m = |node: u32| node_ecef_m[node as usize];
     for &edge in &chain.edges {

@@ -1,5 +1,7 @@
 //! Pairs of edges that may meet: a grid over longitude and latitude.
 
+use std::sync::atomic::{AtomicU64, Ordering};
+
 use rayon::prelude::*;
 
 use crate::{
@@ -136,39 +138,148 @@ impl EdgeGrid {
         fresh: impl Fn(u32) -> bool + Sync,
         visit: impl Fn(u32, u32, &mut Vec<T>) + Sync,
     ) -> Result<Vec<T>, Tangle> {
-        let budget = PAIR_BUDGET.0 + PAIR_BUDGET.1 * self.boxes.len() as u64;
-        let pairs = |cell: usize| (self.cell(cell).len() as u64).pow(2) / 2;
-        if (0..self.cell_ends.len()).map(pairs).sum::<u64>() > budget {
-            return Err(Tangle);
-        }
+        let search = Search {
+            boxes: &self.boxes,
+            fresh,
+            visit,
+            visited: AtomicU64::new(0),
+            budget: PAIR_BUDGET.0 + PAIR_BUDGET.1 * self.boxes.len() as u64,
+        };
         let mut found: Vec<T> = (0..self.cell_ends.len())
             .into_par_iter()
             .with_min_len(64)
-            .fold(Vec::new, |mut found, cell| {
+            .try_fold(Vec::new, |mut found, cell| {
                 let members = self.cell(cell);
-                for (index, &first) in members.iter().enumerate() {
-                    let first_fresh = fresh(first);
-                    let first_box = &self.boxes[first as usize];
-                    for &second in &members[index + 1..] {
-                        if (first_fresh || fresh(second))
-                            && first_box.meets(&self.boxes[second as usize])
-                        {
-                            visit(first, second, &mut found);
-                        }
-                    }
+                if members.len() > 1 {
+                    search.cell(members, self.cell_box(cell), 0, &mut found)?;
                 }
-                found
+                Ok(found)
             })
-            .reduce(Vec::new, |mut all, mut more| {
+            .try_reduce(Vec::new, |mut all, mut more| {
                 if all.len() < more.len() {
                     std::mem::swap(&mut all, &mut more);
                 }
                 all.append(&mut more);
-                all
-            });
+                Ok(all)
+            })?;
         found.sort_unstable();
         found.dedup();
         Ok(found)
+    }
+
+    fn cell_box(&self, cell: usize) -> LatticeBox {
+        let (row, column) = (cell as i64 / self.columns, cell as i64 % self.columns);
+        let (width, height) = (TURN / self.columns + 1, 2 * POLE / self.rows + 1);
+        LatticeBox {
+            west: column * width - TURN / 2,
+            east: (column + 1) * width - TURN / 2,
+            south: row * height - POLE,
+            north: (row + 1) * height - POLE,
+        }
+    }
+}
+
+/// Cells with more edges are divided again: a city's plots may lie on a map of the world.
+const MAX_MEMBERS: usize = 96;
+/// Each division makes cells this many times smaller, either way.
+const DIVISION: i64 = 8;
+/// After so many divisions a cell is a lattice step wide.
+const MAX_DEPTH: u32 = 12;
+
+struct Search<'a, Fresh, Visit> {
+    boxes: &'a [LatticeBox],
+    fresh: Fresh,
+    visit: Visit,
+    visited: AtomicU64,
+    budget: u64,
+}
+
+impl<Fresh: Fn(u32) -> bool, Visit> Search<'_, Fresh, Visit> {
+    /// Visits the pairs of a cell's members.
+    fn cell<T>(
+        &self,
+        members: &[u32],
+        cell_box: LatticeBox,
+        depth: u32,
+        found: &mut Vec<T>,
+    ) -> Result<(), Tangle>
+    where
+        Visit: Fn(u32, u32, &mut Vec<T>),
+    {
+        if members.len() > MAX_MEMBERS && depth < MAX_DEPTH {
+            let parts = self.divide(members, cell_box);
+            let pairs = |count: usize| count * count / 2;
+            let divided: usize = parts.iter().map(|(part, _)| pairs(part.len())).sum();
+            // Edges longer than the cell lie in all its parts: dividing them gains nothing.
+            if divided < pairs(members.len()) / 10 * 9 {
+                return parts
+                    .into_iter()
+                    .try_for_each(|(part, part_box)| self.cell(&part, part_box, depth + 1, found));
+            }
+        }
+        let pairs = (members.len() as u64).pow(2) / 2;
+        if self.visited.fetch_add(pairs, Ordering::Relaxed) + pairs > self.budget {
+            return Err(Tangle);
+        }
+        for (index, &first) in members.iter().enumerate() {
+            let first_fresh = (self.fresh)(first);
+            let first_box = &self.boxes[first as usize];
+            for &second in &members[index + 1..] {
+                if (first_fresh || (self.fresh)(second))
+                    && first_box.meets(&self.boxes[second as usize])
+                {
+                    (self.visit)(first, second, found);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The part of a cell in which members lie.
+    fn common_box(&self, members: &[u32], cell_box: LatticeBox) -> LatticeBox {
+        let mut common = LatticeBox {
+            west: cell_box.east,
+            east: cell_box.west,
+            south: cell_box.north,
+            north: cell_box.south,
+        };
+        for &member in members {
+            let member = &self.boxes[member as usize];
+            for shift in [-TURN, 0, TURN] {
+                let (west, east) = (member.west + shift, member.east + shift);
+                if west <= cell_box.east && cell_box.west <= east {
+                    common.west = common.west.min(west.max(cell_box.west));
+                    common.east = common.east.max(east.min(cell_box.east));
+                }
+            }
+            common.south = common.south.min(member.south.max(cell_box.south));
+            common.north = common.north.max(member.north.min(cell_box.north));
+        }
+        common
+    }
+
+    /// The members of the parts of a cell that have more than one.
+    fn divide(&self, members: &[u32], cell_box: LatticeBox) -> Vec<(Vec<u32>, LatticeBox)> {
+        let cell_box = self.common_box(members, cell_box);
+        let width = (cell_box.east - cell_box.west) / DIVISION + 1;
+        let height = (cell_box.north - cell_box.south) / DIVISION + 1;
+        let mut parts = Vec::new();
+        for part in 0..DIVISION * DIVISION {
+            let west = cell_box.west + part % DIVISION * width;
+            let south = cell_box.south + part / DIVISION * height;
+            let part_box = LatticeBox {
+                west,
+                east: west + width,
+                south,
+                north: south + height,
+            };
+            let is_in = |member: &&u32| self.boxes[**member as usize].meets(&part_box);
+            let part: Vec<u32> = members.iter().filter(is_in).copied().collect();
+            if part.len() > 1 {
+                parts.push((part, part_box));
+            }
+        }
+        parts
     }
 }
 
@@ -232,6 +343,29 @@ fn entry_count(boxes: &[LatticeBox], columns: i64, rows: i64, limit: u64) -> u64
 mod tests {
     use super::*;
     use crate::{boundary_graph::BoundaryGraph, lattice::LatticePoint};
+
+    #[test]
+    fn a_dense_place_is_no_tangle_and_a_tangle_is_found_out() {
+        let edges = |reach: i64| {
+            let mut graph = BoundaryGraph::default();
+            for k in 0..30_000_i64 {
+                // A city of 0.1°: squares of 0.6 m without order.
+                let start = LatticePoint::new(
+                    TURN / 2 - 5 + k * 7_919 % 104_729 * 65_536,
+                    k * 104_729 % 99_991 * 65_536,
+                );
+                let turned = LatticePoint::new(start.lon + reach + k, start.lat + reach - k);
+                graph.insert(EdgeKind::Straight, start, turned);
+            }
+            graph.edges
+        };
+        let count = |edges: &[Edge]| {
+            let pairs = EdgeGrid::new(edges).pairs(|_| true, |a, b, found| found.push((a, b)));
+            pairs.map(|pairs| pairs.len())
+        };
+        assert!(count(&edges(400_000)).unwrap() < 100_000);
+        assert_eq!(count(&edges(TURN / 5)), Err(Tangle));
+    }
 
     #[test]
     fn all_pairs_whose_boxes_meet_are_visited() {

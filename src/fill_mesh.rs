@@ -13,7 +13,8 @@ pub struct MeshOptions {
     /// The ellipsoid that longitudes and latitudes refer to.
     pub ellipsoid: Ellipsoid,
     /// How far, metres, a stored boundary chord may lie beside the true edge. The renderer refines
-    /// edges near the eye far below this; smaller values only cost memory.
+    /// edges near the eye far below this; smaller values only cost memory, and none
+    /// below 1 mm is met.
     pub tolerance_m: f64,
 }
 

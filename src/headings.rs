@@ -157,14 +157,12 @@ mod tests {
     #[test]
     fn curved_ties_are_uncertain() {
         let mut graph = BoundaryGraph::default();
-        let from = LonLat::new(0.0, 0.0);
-        let mut edges = [(10.0, 0.0), (20.0, 0.0), (0.0, 5.0)].map(|(lon, lat)| {
+        let (from, far) = (LonLat::new(0.0, 10.0), LonLat::new(20.0, 15.0));
+        let whole = Curve::between(EdgeKind::Geodesic, from, far);
+        let half = whole.on(&Ellipsoid::WGS84).lon_lat(0.5);
+        let mut edges = [far, half, LonLat::new(0.0, 5.0)].map(|to| {
             graph
-                .insert_curve(&Curve::between(
-                    EdgeKind::Geodesic,
-                    from,
-                    LonLat::new(lon, lat),
-                ))
+                .insert_curve(&Curve::between(EdgeKind::Geodesic, from, to))
                 .unwrap()
         });
         assert!(!sort_counter_clockwise(

@@ -17,6 +17,8 @@ pub(crate) struct Boundary {
     pub(crate) loops: Vec<Vec<DirectedEdge>>,
     /// What they enclose together.
     pub(crate) enclosed: Enclosed,
+    /// Rings that were dropped because they remove nothing.
+    pub(crate) idle_holes: Vec<usize>,
 }
 
 /// A component, and what lies to its left.
@@ -34,7 +36,7 @@ impl Side {
 
 /// Directs a polygon's components by the inside rule.
 ///
-/// The shell's largest component is directed by `inside`. Other parts of the shell follow the
+/// The component of the shell that encloses most is directed by `inside`. Other parts of the shell follow the
 /// even-odd rule. Of a hole, the side away from the shell is removed; a hole outside the shell, or
 /// within another hole, removes nothing and is dropped. With no shell left, holes are cut out of
 /// the whole globe, their smaller side each.
@@ -56,9 +58,13 @@ pub(crate) fn direct(
         })
         .collect();
     let half_m2 = 0.5 * authalic.globe_m2();
+    let smaller_m2 = |side: &Side| {
+        let left_m2 = authalic.left_m2(side.enclosed);
+        left_m2.min(authalic.globe_m2() - left_m2)
+    };
     let main = (0..sides.len())
-        .filter(|&index| sides[index].component.from_shell)
-        .max_by_key(|&index| sides[index].component.edges().count());
+        .filter(|&index| !sides[index].component.is_hole())
+        .max_by(|&a, &b| smaller_m2(&sides[a]).total_cmp(&smaller_m2(&sides[b])));
     let Some(main) = main else {
         for side in &mut sides {
             if authalic.left_m2(side.enclosed) < half_m2 {
@@ -74,13 +80,13 @@ pub(crate) fn direct(
         return gather(sides.into_iter());
     }
     let kept = direct_others(ellipsoid, graph, &mut sides, main);
-    gather(
-        sides
-            .into_iter()
-            .zip(kept)
-            .filter(|(_, kept)| *kept)
-            .map(|(side, _)| side),
-    )
+    let idle_holes = sides.iter().zip(&kept).filter(|(_, kept)| !**kept);
+    let idle_holes = idle_holes.map(|(side, _)| side.component.ring).collect();
+    let kept = sides.into_iter().zip(kept).filter(|(_, kept)| *kept);
+    Boundary {
+        idle_holes,
+        ..gather(kept.map(|(side, _)| side))
+    }
 }
 
 fn gather(sides: impl Iterator<Item = Side>) -> Boundary {
@@ -125,13 +131,13 @@ fn direct_others(
             {
                 continue;
             }
-            if sides[between].component.from_shell {
+            if !sides[between].component.is_hole() {
                 facing_inside = !facing_inside;
             } else {
                 hole_between = true;
             }
         }
-        if !sides[own].component.from_shell && (hole_between || !facing_inside) {
+        if sides[own].component.is_hole() && (hole_between || !facing_inside) {
             kept[own] = false;
             continue;
         }

@@ -39,6 +39,14 @@ impl LatticePoint {
         }
     }
 
+    /// The lattice point that a position is which came from one.
+    pub(crate) fn exactly(position: LonLat) -> Self {
+        Self {
+            lon: steps(position.lon_deg),
+            lat: steps(position.lat_deg),
+        }
+    }
+
     /// The same point in degrees, exactly.
     pub(crate) fn lon_lat(self) -> LonLat {
         LonLat::new(
@@ -68,6 +76,9 @@ impl LatticePoint {
 
 /// The longitude brought to (−180°, 180°].
 pub(crate) fn wrap(lon: i64) -> i64 {
+    if lon > -TURN / 2 && lon <= TURN / 2 {
+        return lon;
+    }
     let turned = lon.rem_euclid(TURN);
     if turned > TURN / 2 {
         turned - TURN

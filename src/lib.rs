@@ -46,6 +46,7 @@ mod simple_loops;
 mod stream_buffer;
 mod targets;
 mod triangulate;
+mod vertex_runs;
 pub mod view;
 mod volumes;
 

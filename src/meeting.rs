@@ -44,13 +44,11 @@ pub(crate) fn meetings(
     match shared {
         0 => {
             let curves = [first, second].map(|edge| edge.curve().on(ellipsoid));
-            if let Some(meeting) = curved_meeting(&curves[0], &curves[1]) {
-                found(meeting);
-            }
+            curved_meetings([first, second], &curves[0], &curves[1], &mut found);
         }
         // From a common end two curves of one kind part for good (geodesics up to the antipode,
         // which edges never reach); how they part is looked at where they do.
-        1 if first.kind == second.kind => {}
+        1 if first.is_also(second.kind) || second.is_also(first.kind) => {}
         _ => found(Meeting::Unclear),
     }
 }
@@ -95,47 +93,72 @@ fn is_between(a: LatticePoint, b: LatticePoint, point: LatticePoint) -> bool {
     within(a.lon, b.lon, point.lon) && within(a.lat, b.lat, point.lat) && point != a && point != b
 }
 
-/// Pieces shorter than this, metres, that still cannot be told apart are unclear.
-const UNCLEAR_M: f64 = 0.01;
+/// Curves nearer than this, metres, are taken to meet: ten times the rounding of positions.
+const TOUCH_M: f64 = 1e-5;
 
 /// Bisects both curves until their hulls part or cross.
-fn curved_meeting(first: &CurveOn, second: &CurveOn) -> Option<Meeting> {
-    let mut meeting = None;
+fn curved_meetings(
+    edges: [&Edge; 2],
+    first: &CurveOn,
+    second: &CurveOn,
+    found: &mut impl FnMut(Meeting),
+) {
+    let mut touch = None;
     let mut stack = vec![(Hull::of(first, 0.0, 1.0), Hull::of(second, 0.0, 1.0))];
     let mut budget = 4096;
     while let Some((a, b)) = stack.pop() {
-        budget -= 1;
-        if budget == 0 {
-            return Some(Meeting::Unclear);
-        }
         if a.distance_m(&b) > a.radius_m + b.radius_m {
             continue;
         }
+        budget -= 1;
+        if budget == 0 {
+            return found(Meeting::Unclear);
+        }
         if let Some(t) = a.crossing(&b) {
-            let point = LatticePoint::nearest(first.lon_lat(a.t0 + t * (a.t1 - a.t0))).canonical();
-            // Two crossings of one pair of edges are more than a split at one point can mend.
-            meeting = Some(if meeting.is_none() {
-                Meeting::Crossing(point)
-            } else {
-                Meeting::Unclear
-            });
-            continue;
-        }
-        let split_first = a.length_m() + a.radius_m >= b.length_m() + b.radius_m;
-        if a.length_m().max(b.length_m()) < UNCLEAR_M {
-            return Some(Meeting::Unclear);
-        }
-        if split_first {
-            let [left, right] = a.halves(first);
-            stack.push((left, b));
-            stack.push((right, b));
+            let point = LatticePoint::nearest(first.lon_lat(a.t0 + t * (a.t1 - a.t0)));
+            found(Meeting::Crossing(on_grid_lines(edges, point.canonical())));
+        } else if a.length_m().max(b.length_m()) < TOUCH_M {
+            touch = Some(touching(edges, first, &a, &b));
+        } else if a.length_m() + a.radius_m >= b.length_m() + b.radius_m {
+            stack.extend(a.parts(first).map(|part| (part, b)));
         } else {
-            let [left, right] = b.halves(second);
-            stack.push((a, left));
-            stack.push((a, right));
+            stack.extend(b.parts(second).map(|part| (a, part)));
         }
     }
-    meeting
+    // All pieces next to a touching point touch: it is one.
+    touch.into_iter().for_each(found);
+}
+
+/// What short pieces that touch have in common: an end of one edge, or else a crossing so flat that
+/// it could not be seen.
+fn touching(edges: [&Edge; 2], first: &CurveOn, a: &Hull, b: &Hull) -> Meeting {
+    let node_of = |edge: &Edge, hull: &Hull| match (hull.t0 == 0.0, hull.t1 == 1.0) {
+        (true, _) => Some(edge.from),
+        (_, true) => Some(edge.to),
+        _ => None,
+    };
+    if let Some(node) = node_of(edges[1], b) {
+        return Meeting::NodeOnFirst(node);
+    }
+    if let Some(node) = node_of(edges[0], a) {
+        return Meeting::NodeOnSecond(node);
+    }
+    let point = LatticePoint::nearest(first.lon_lat(a.t0)).canonical();
+    Meeting::Crossing(on_grid_lines(edges, point))
+}
+
+/// A point common to two edges, put exactly on those that are meridians or parallels: splitting
+/// them there must not bend them.
+fn on_grid_lines(edges: [&Edge; 2], mut point: LatticePoint) -> LatticePoint {
+    for edge in edges.iter().filter(|edge| edge.kind == EdgeKind::Straight) {
+        if edge.turn() == 0 {
+            point.lon = edge.start.lon;
+        }
+        if edge.start.lat == edge.end.lat {
+            point.lat = edge.start.lat;
+        }
+    }
+    point
 }
 
 /// A piece of a curve: it lies within `radius_m` of its chord.
@@ -174,12 +197,10 @@ impl Hull {
         self.start.distance(self.end)
     }
 
-    fn halves(&self, curve: &CurveOn) -> [Self; 2] {
-        let middle = 0.5 * (self.t0 + self.t1);
-        [
-            Self::of(curve, self.t0, middle),
-            Self::of(curve, middle, self.t1),
-        ]
+    /// Not halves: inputs have so many symmetries that curves would often meet at the cut.
+    fn parts(&self, curve: &CurveOn) -> [Self; 2] {
+        let cut = self.t0 + 0.4857 * (self.t1 - self.t0);
+        [Self::of(curve, self.t0, cut), Self::of(curve, cut, self.t1)]
     }
 
     /// Where along this piece, 0 … 1, the other one crosses it, if each surely has its ends on
@@ -192,8 +213,9 @@ impl Hull {
                 .all(|side| side.abs() > plane.deviation_m * 1.01 + 1e-7);
             (clear && sides[0] * sides[1] < 0.0).then_some(sides)
         };
-        // Beyond a kilometre the hulls are too fat for "on both sides" to mean a single crossing.
-        if self.length_m().max(other.length_m()) > 1_000.0 {
+        // Longer pieces are so bent that "on both sides" need not mean a single crossing, and the
+        // chords' common point would lie beside the curves': here by 10⁻⁶ m at most.
+        if self.length_m().max(other.length_m()) > 20.0 {
             return None;
         }
         sides(self, other)?;

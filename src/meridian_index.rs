@@ -12,7 +12,11 @@ use crate::{
 pub(crate) struct MeridianIndex<'a> {
     ellipsoid: &'a Ellipsoid,
     graph: &'a BoundaryGraph,
-    columns: Vec<Vec<(u32, u32)>>,
+    columns: Columns,
+    /// Per column the end of its run in `entries`.
+    ends: Vec<u32>,
+    /// Edges and their labels.
+    entries: Vec<(u32, u32)>,
     /// Meridians on which edges reach the north pole, with the edges' labels.
     polar: Vec<(i64, u32)>,
 }
@@ -21,54 +25,54 @@ impl<'a> MeridianIndex<'a> {
     pub(crate) fn new(
         ellipsoid: &'a Ellipsoid,
         graph: &'a BoundaryGraph,
-        edges: impl Iterator<Item = (DirectedEdge, u32)> + Clone,
+        labelled: impl Iterator<Item = (DirectedEdge, u32)>,
     ) -> Self {
-        let (count, total_turn) = edges
-            .clone()
-            .fold((0_i64, 0_i64), |(count, turn), (edge, _)| {
-                // In 1/2²⁰ of a turn: the sum of many turns must not overflow.
-                (count + 1, turn + (graph.walk(edge).turn().abs() >> 16))
-            });
-        // As many columns as keep the entries below about four an edge.
-        let mean_turn = (total_turn / count.max(1)).max(1) << 16;
-        let columns = (count / 4).min(3 * TURN / mean_turn).clamp(1, 4096);
-        let mut index = Self {
+        let labelled: Vec<(DirectedEdge, u32)> = labelled.collect();
+        let spans: Vec<(i64, i64)> = labelled
+            .iter()
+            .map(|(edge, _)| LatticeBox::around(&graph.edges[edge.edge() as usize]))
+            .map(|edge_box| (edge_box.west, edge_box.east))
+            .collect();
+        let columns = Columns::new(&spans);
+        let mut ends = vec![0_u32; columns.count()];
+        for &span in &spans {
+            columns.touched(span).for_each(|column| ends[column] += 1);
+        }
+        let mut total = 0;
+        for end in &mut ends {
+            total += *end;
+            *end = total - *end;
+        }
+        let mut entries = vec![(0, 0); total as usize];
+        let mut polar = Vec::new();
+        for (&(directed, label), &span) in labelled.iter().zip(&spans) {
+            for column in columns.touched(span) {
+                entries[ends[column] as usize] = (directed.edge(), label);
+                ends[column] += 1;
+            }
+            let edge = &graph.edges[directed.edge() as usize];
+            let tips = [edge.start, edge.end].into_iter();
+            let tips = tips.filter(|tip| tip.is_pole() && tip.lat > 0);
+            polar.extend(tips.map(|tip| (wrap(tip.lon), label)));
+        }
+        Self {
             ellipsoid,
             graph,
-            columns: vec![Vec::new(); columns as usize],
-            polar: Vec::new(),
-        };
-        for (edge, label) in edges {
-            index.insert(edge, label);
+            columns,
+            ends,
+            entries,
+            polar,
         }
-        index
     }
 
-    fn column(&self, lon: i64) -> i64 {
-        let columns = self.columns.len() as i64;
-        (lon + TURN / 2)
-            .div_euclid(TURN / columns + 1)
-            .rem_euclid(columns)
-    }
-
-    fn insert(&mut self, directed: DirectedEdge, label: u32) {
-        let edge = self.graph.walk(directed);
-        let edge_box = LatticeBox::around(&edge);
-        let columns = self.columns.len() as i64;
-        let (first, last) = (self.column(edge_box.west), self.column(wrap(edge_box.east)));
-        let last = if last < first || edge_box.east - edge_box.west > TURN / 2 && last == first {
-            last + columns
+    fn column_at(&self, lon: i64) -> &[(u32, u32)] {
+        let column = self.columns.of(lon);
+        let first = if column == 0 {
+            0
         } else {
-            last
+            self.ends[column - 1]
         };
-        for column in first..=last.min(first + columns - 1) {
-            self.columns[(column % columns) as usize].push((directed.edge(), label));
-        }
-        for end in [edge.start, edge.end] {
-            if end.is_pole() && end.lat > 0 {
-                self.polar.push((wrap(end.lon), label));
-            }
-        }
+        &self.entries[first as usize..self.ends[column] as usize]
     }
 
     /// Labels of the boundaries that separate `point` (not a pole) from the neighbourhood of the
@@ -77,7 +81,7 @@ impl<'a> MeridianIndex<'a> {
     /// every edge that ends at the point itself: what is said about those is void.
     pub(crate) fn separating(&self, point: LatticePoint, mut on_node: impl FnMut(u32)) -> Vec<u32> {
         let mut crossed = Vec::new();
-        for &(edge, label) in &self.columns[self.column(point.lon) as usize] {
+        for &(edge, label) in self.column_at(point.lon) {
             let edge = &self.graph.edges[edge as usize];
             if self.graph.nodes[edge.from as usize] == point
                 || self.graph.nodes[edge.to as usize] == point
@@ -96,6 +100,63 @@ impl<'a> MeridianIndex<'a> {
         );
         crossed.sort_unstable();
         odd_ones(&crossed)
+    }
+}
+
+/// Columns of longitude in which about equally many edges begin, however unevenly they lie.
+struct Columns {
+    /// Where columns begin, ascending; the last one ends where the first begins.
+    starts: Vec<i64>,
+}
+
+impl Columns {
+    /// Columns for edges that span these longitudes, west to east.
+    fn new(spans: &[(i64, i64)]) -> Self {
+        let mut begins: Vec<i64> = spans.iter().map(|&(west, _)| west).collect();
+        begins.sort_unstable();
+        let mut per_column = 8;
+        loop {
+            let mut starts: Vec<i64> = begins.iter().copied().step_by(per_column).collect();
+            starts.dedup();
+            let columns = Self { starts };
+            // Long edges lie in many columns: make those wider until the entries are few.
+            let entries: usize = spans.iter().map(|&span| columns.touched_count(span)).sum();
+            if entries <= 16 * spans.len() || columns.starts.len() <= 1 {
+                return columns;
+            }
+            per_column *= 2;
+        }
+    }
+
+    fn count(&self) -> usize {
+        self.starts.len().max(1)
+    }
+
+    /// The column of a longitude in (−180°, 180°].
+    fn of(&self, lon: i64) -> usize {
+        let begun = self.starts.partition_point(|&start| start <= lon);
+        if begun == 0 {
+            self.count() - 1
+        } else {
+            begun - 1
+        }
+    }
+
+    fn touched_count(&self, (west, east): (i64, i64)) -> usize {
+        let (first, last) = (self.of(west), self.of(wrap(east)));
+        let more = if east - west >= TURN {
+            self.count() - 1
+        } else if last < first || last == first && wrap(east) < west {
+            last + self.count() - first
+        } else {
+            last - first
+        };
+        more.min(self.count() - 1) + 1
+    }
+
+    fn touched(&self, span: (i64, i64)) -> impl Iterator<Item = usize> + use<> {
+        let (first, count) = (self.of(span.0), self.count());
+        (first..first + self.touched_count(span)).map(move |column| column % count)
     }
 }
 
@@ -141,7 +202,7 @@ mod tests {
             assert_eq!(separating(180.0, 10.0), [0, 1]);
             assert_eq!(separating(-171.0, 1.0), [0, 1]);
             assert_eq!(separating(-171.0, -1.0), [1]);
-            assert!(separating(0.5, 85.0).is_empty());
+            assert_eq!(separating(0.5, 85.0), [0; 0]);
             assert_eq!(separating(30.0, 69.0), [1, 2]);
             assert_eq!(separating(30.0, 88.0), [2]);
         }

@@ -16,10 +16,11 @@ use crate::{
     noding::{PolygonPairs, PolygonWalk, node_boundaries},
     overlaps::overlaps,
     region::{EdgeKind, Polygon, Region},
-    repair::{Place, Repair},
-    rings::walk_ring,
+    repair::{Place, Repair, RepairKind},
+    rings::{RingWalk, walk_ring},
     simple_loops::{Component, even_odd_components},
     triangulate::{Caps, triangulate},
+    vertex_runs::VertexRuns,
 };
 
 /// Runs the whole pipeline.
@@ -47,11 +48,15 @@ pub(crate) fn build(regions: &[Region], options: &MeshOptions) -> Result<FillMes
     let pieces: Vec<Boundary> = boundaries.into_iter().flatten().collect();
     let sides = EdgeSides::new(&graph, &pieces);
     let crossing = crossing_pieces(crossing, &piece_of_polygon);
-    mesh.overlaps = overlaps(&ellipsoid, &graph, &sides, &pieces, crossing);
-
-    let chains = chains(&graph, &sides, &pieces);
-    let vertex_runs = mesh.add_arcs(&graph, &chains, options.tolerance_m);
-    mesh.add_caps(&graph, &pieces, &vertex_runs);
+    let (overlaps, ()) = rayon::join(
+        || overlaps(&ellipsoid, &graph, &sides, &pieces, crossing),
+        || {
+            let chains = chains(&graph, &sides, &pieces);
+            let vertex_runs = mesh.add_arcs(&graph, &chains, options.tolerance_m);
+            mesh.add_caps(&graph, &pieces, &vertex_runs);
+        },
+    );
+    mesh.overlaps = overlaps;
     Ok(mesh)
 }
 
@@ -130,12 +135,18 @@ fn bound_polygons(
             } else {
                 even_odd_components(ellipsoid, graph, walk, &mut repairs)
             };
-            let shell_is_left = components.iter().any(|component| component.from_shell);
+            let shell_is_left = components.iter().any(|component| !component.is_hole());
             let shell = &region.polygons[walk.place.polygon].shell;
             let is_globe =
                 !shell_is_left && region.edges == EdgeKind::Straight && spans_globe(shell);
             let boundary = (shell_is_left || is_globe)
                 .then(|| direct(ellipsoid, graph, &authalic, components, region.inside));
+            for &ring in boundary.iter().flat_map(|boundary| &boundary.idle_holes) {
+                repairs.push(Repair {
+                    place: Place { ring, ..walk.place },
+                    kind: RepairKind::IdleHole,
+                });
+            }
             (boundary, repairs)
         })
         .collect();
@@ -157,7 +168,13 @@ fn simple_polygons(graph: &BoundaryGraph, polygons: &[PolygonWalk]) -> Vec<bool>
         .map(|(polygon, walk)| {
             let mut edges = walk.rings.iter().flat_map(|ring| &ring.edges);
             let visit = polygon as u32;
-            walk.rings.iter().all(|ring| ring.edges.len() > 1)
+            // One edge there and back visits no node twice.
+            let is_ring = |ring: &RingWalk| match ring.edges[..] {
+                [] => false,
+                [there, back] => there.edge() != back.edge(),
+                _ => true,
+            };
+            walk.rings.iter().all(is_ring)
                 && edges.all(|&edge| {
                     let node = graph.start_node(edge) as usize;
                     std::mem::replace(&mut last_visit[node], visit) != visit
@@ -167,9 +184,9 @@ fn simple_polygons(graph: &BoundaryGraph, polygons: &[PolygonWalk]) -> Vec<bool>
 }
 
 fn rings_as_components(walk: &PolygonWalk) -> Vec<Component> {
-    let component = |(index, ring): (usize, &crate::rings::RingWalk)| Component {
+    let component = |(index, ring): (usize, &RingWalk)| Component {
         loops: vec![ring.edges.clone()],
-        from_shell: index == 0,
+        ring: index,
     };
     walk.rings.iter().enumerate().map(component).collect()
 }
@@ -186,22 +203,14 @@ fn spans_globe(ring: &[LonLat]) -> bool {
     area.abs() > std::f64::consts::TAU
 }
 
-fn crossing_pieces(
-    crossing: PolygonPairs,
-    piece_of_polygon: &[Option<u32>],
-) -> impl Iterator<Item = (u32, u32)> {
-    crossing.into_iter().filter_map(|(a, b)| {
-        let [a, b] = [a, b].map(|polygon| piece_of_polygon[polygon as usize]);
-        a.zip(b)
-    })
-}
-
-/// Where the vertices of the graph's nodes and edges are in the mesh.
-struct VertexRuns {
-    /// Per node one of its vertices.
-    node: Vec<u32>,
-    /// Per edge its first and its last vertex, from its smaller node to its greater.
-    edge: Vec<(u32, u32)>,
+fn crossing_pieces(crossing: PolygonPairs, piece_of_polygon: &[Option<u32>]) -> Vec<(u32, u32)> {
+    crossing
+        .into_iter()
+        .filter_map(|(a, b)| {
+            let [a, b] = [a, b].map(|polygon| piece_of_polygon[polygon as usize]);
+            a.zip(b)
+        })
+        .collect()
 }
 
 impl FillMesh {
@@ -254,10 +263,7 @@ impl FillMesh {
                 true => DenseChain::default(),
             })
             .collect();
-        let mut runs = VertexRuns {
-            node: vec![u32::MAX; graph.nodes.len()],
-            edge: vec![(u32::MAX, u32::MAX); graph.edges.len()],
-        };
+        let mut runs = VertexRuns::new(graph);
         for (chain, dense) in chains
             .iter()
             .zip(&dense)
@@ -270,6 +276,7 @@ impl FillMesh {
             let copy = self.copy_of(graph, chain, &runs);
             self.add_arc(chain, &copy);
         }
+        self.bound_arcs();
         runs
     }
 
@@ -283,11 +290,7 @@ impl FillMesh {
             vertex_count: dense.vertices.len() as u32,
             left: Some(chain.left),
             right: chain.right,
-            bounds: Bounds::around(
-                &self.ellipsoid,
-                dense.vertices.iter().copied(),
-                edge_margin_m(&self.ellipsoid, dense),
-            ),
+            bounds: Bounds::default(),
         });
         self.vertices.extend_from_slice(&dense.vertices);
         self.curves.extend_from_slice(&dense.curves);
@@ -296,6 +299,16 @@ impl FillMesh {
                 curve: first_curve + vertex.curve,
                 ..*vertex
             }));
+    }
+
+    fn bound_arcs(&mut self) {
+        let (ellipsoid, vertices, boundary) = (self.ellipsoid, &self.vertices, &self.boundary);
+        self.arcs.par_iter_mut().for_each(|arc| {
+            let run = arc.first_vertex as usize..(arc.first_vertex + arc.vertex_count) as usize;
+            let margin_m =
+                edge_margin_m(&ellipsoid, &vertices[run.clone()], &boundary[run.clone()]);
+            arc.bounds = Bounds::around(&ellipsoid, vertices[run].iter().copied(), margin_m);
+        });
     }
 
     /// A chain's vertices from the arcs that run along the same edges already: bit for bit the same
@@ -392,7 +405,7 @@ impl FillMesh {
         }
     }
 
-    /// How far the true edges may lie beside the great arcs of the scaled sphere between vertices.
+    /// [`edge_margin_m`] of all arcs together.
     fn arcs_margin_m(&self) -> f64 {
         let deviation_m = self
             .boundary
@@ -403,70 +416,21 @@ impl FillMesh {
     }
 }
 
-fn edge_margin_m(ellipsoid: &Ellipsoid, dense: &DenseChain) -> f64 {
-    let deviation_m = dense
-        .boundary
+/// How far true edges may lie beside the great arcs of the scaled sphere between their vertices.
+fn edge_margin_m(ellipsoid: &Ellipsoid, vertices: &[DVec3], boundary: &[BoundaryVertex]) -> f64 {
+    let deviation_m = boundary
         .iter()
         .map(|vertex| vertex.deviation_m)
         .fold(0.0, f32::max);
-    f64::from(deviation_m) + skew_m(ellipsoid, ellipsoid.chord_sag_m(dense.longest_chord_m))
+    let chord_m = vertices
+        .windows(2)
+        .map(|pair| pair[0].distance(pair[1]))
+        .fold(0.0, f64::max);
+    f64::from(deviation_m) + skew_m(ellipsoid, ellipsoid.chord_sag_m(chord_m))
 }
 
 /// How far a wall along geodetic normals and one through the centre part, over the height `sag_m`
 /// from the chord to the surface: their directions differ by the flattening at most, taken twice.
 fn skew_m(ellipsoid: &Ellipsoid, sag_m: f64) -> f64 {
     2.0 * ellipsoid.flattening().abs() * sag_m
-}
-
-impl VertexRuns {
-    fn add(&mut self, graph: &BoundaryGraph, chain: &Chain, dense: &DenseChain, first_vertex: u32) {
-        let end = dense.vertices.len() as u32 - 1;
-        let starts = dense
-            .edge_starts
-            .iter()
-            .copied()
-            .chain([end])
-            .map(|start| first_vertex + start);
-        let starts: Vec<u32> = starts.collect();
-        for (&edge, run) in chain.edges.iter().zip(starts.windows(2)) {
-            self.node[graph.start_node(edge) as usize] = run[0];
-            self.node[graph.end_node(edge) as usize] = run[1];
-            self.edge[edge.edge() as usize] = if edge.is_forward() {
-                (run[0], run[1])
-            } else {
-                (run[1], run[0])
-            };
-        }
-    }
-
-    /// The vertices of an edge as it is walked.
-    fn along(
-        &self,
-        edge: crate::boundary_graph::DirectedEdge,
-    ) -> impl Iterator<Item = u32> + use<> {
-        let (from, to) = self.edge[edge.edge() as usize];
-        let (from, to) = if edge.is_forward() {
-            (from, to)
-        } else {
-            (to, from)
-        };
-        let step = move |k: u32| if from <= to { from + k } else { from - k };
-        (0..=from.abs_diff(to)).map(step)
-    }
-
-    /// The vertices of a loop, one for each position.
-    fn loop_vertices(
-        &self,
-        graph: &BoundaryGraph,
-        edges: &[crate::boundary_graph::DirectedEdge],
-    ) -> Vec<u32> {
-        let mut vertices = Vec::with_capacity(edges.len());
-        for &edge in edges {
-            let (from, to) = self.edge[edge.edge() as usize];
-            vertices.push(self.node[graph.start_node(edge) as usize]);
-            let inner = from.abs_diff(to) as usize - 1;
-            vertices.extend(self.along(edge).skip(1).take(inner));
-        }
-        vertices
-    }
 }

@@ -49,8 +49,9 @@ pub(crate) fn node_boundaries(
             match meeting {
                 Meeting::NodeOnFirst(node) => splits.add(first, graph.nodes[node as usize]),
                 Meeting::NodeOnSecond(node) => splits.add(second, graph.nodes[node as usize]),
-                Meeting::Crossing(point) => {
-                    if let Some(polygon) = users.common(first, second) {
+                Meeting::Crossing(point) => match users.common(first, second) {
+                    // Whoever else walks these edges meets at a node then, where sectors tell.
+                    Some(polygon) => {
                         let place = polygons[polygon as usize].place_of(first);
                         repairs.push(Repair {
                             place,
@@ -59,8 +60,8 @@ pub(crate) fn node_boundaries(
                         splits.add(first, point);
                         splits.add(second, point);
                     }
-                    users.add_pairs(first, second, &mut crossing);
-                }
+                    None => users.add_pairs(first, second, &mut crossing),
+                },
                 Meeting::Unclear => users.add_pairs(first, second, &mut crossing),
             }
         }

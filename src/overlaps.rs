@@ -30,9 +30,9 @@ pub(crate) fn overlaps(
     graph: &BoundaryGraph,
     sides: &EdgeSides,
     pieces: &[Boundary],
-    crossing: impl Iterator<Item = Pair>,
+    crossing: Vec<Pair>,
 ) -> Vec<Pair> {
-    let mut pairs: Vec<Pair> = crossing.collect();
+    let mut pairs = crossing;
     add_same_side(sides, &mut pairs);
     add_common_sectors(ellipsoid, graph, sides, pieces, &mut pairs);
     add_contained(ellipsoid, graph, pieces, &mut pairs);

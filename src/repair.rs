@@ -49,4 +49,6 @@ pub enum RepairKind {
     Pinch,
     /// The ring crossed itself; it was split at the crossing and filled by the even-odd rule.
     Crossing,
+    /// A hole outside its shell, or within another hole, removes nothing and was dropped.
+    IdleHole,
 }

@@ -46,9 +46,10 @@ pub(crate) fn walk_ring(
         edges: Vec::with_capacity(points.len()),
         vertices: Vec::with_capacity(points.len()),
     };
+    let nodes: Vec<u32> = points.iter().map(|&(_, point)| graph.node(point)).collect();
     for (index, &(vertex, point)) in points.iter().enumerate() {
-        let (_, next) = points[(index + 1) % points.len()];
-        let curve = Curve::between(kind, point.lon_lat(), next.lon_lat());
+        let next = (index + 1) % points.len();
+        let curve = Curve::between(kind, point.lon_lat(), points[next].1.lon_lat());
         match kind {
             EdgeKind::Geodesic => {
                 let place = Place { vertex, ..place };
@@ -57,7 +58,10 @@ pub(crate) fn walk_ring(
             EdgeKind::Straight if curve.turn_deg.abs() > 180.0 => {
                 walk_long_way(&curve, vertex, graph, &mut walk);
             }
-            EdgeKind::Rhumb | EdgeKind::Straight => walk.push(graph.insert_curve(&curve), vertex),
+            EdgeKind::Rhumb | EdgeKind::Straight => {
+                let ends = [nodes[index], nodes[next]];
+                walk.push(graph.insert_curve_between(&curve, ends), vertex);
+            }
         }
     }
     Ok(walk)

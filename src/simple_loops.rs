@@ -15,11 +15,15 @@ use crate::{
 pub(crate) struct Component {
     /// Closed, none visits a node twice; they may touch each other at nodes.
     pub(crate) loops: Vec<Vec<DirectedEdge>>,
-    /// Whether an edge of the shell is part of it.
-    pub(crate) from_shell: bool,
+    /// The first ring that has an edge in it; 0 is the shell.
+    pub(crate) ring: usize,
 }
 
 impl Component {
+    pub(crate) fn is_hole(&self) -> bool {
+        self.ring > 0
+    }
+
     pub(crate) fn edges(&self) -> impl Iterator<Item = DirectedEdge> + Clone {
         self.loops.iter().flatten().copied()
     }
@@ -70,10 +74,10 @@ pub(crate) fn even_odd_components(
             if 2 * agreeing < edges.len() {
                 edges.iter_mut().for_each(|edge| *edge = edge.reversed());
             }
-            let from_shell = edges.iter().any(|edge| ring_of[&edge.edge()].1 == 0);
+            let rings = edges.iter().map(|edge| ring_of[&edge.edge()].1);
             Component {
+                ring: rings.min().unwrap_or(0),
                 loops: stars.loops(graph, &edges),
-                from_shell,
             }
         })
         .collect()
