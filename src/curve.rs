@@ -1,14 +1,15 @@
 //! The true edge between two vertices, as a curve that can be evaluated anywhere.
 
 mod deviation;
+pub(crate) mod isometric;
 
 use geographiclib_rs::{Geodesic, GeodesicLine, geodesic_capability as capability};
 use glam::DVec3;
 
 use crate::{
+    curve::isometric::IsometricLatitude,
     ellipsoid::Ellipsoid,
     geodetic::{LonLat, wrap_deg},
-    isometric::IsometricLatitude,
     region::EdgeKind,
 };
 

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::{
-    curve::Curve, ellipsoid::Ellipsoid, error::RegionError, mesh_build, region::Region,
+    curve::Curve, ellipsoid::Ellipsoid, error::RegionError, mesh::mesh_build, region::Region,
     repair::Repair,
 };
 

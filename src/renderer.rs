@@ -3,21 +3,21 @@
 use std::collections::BTreeMap;
 
 use crate::{
-    code::Mantissa,
-    count::{self, Drawn, Recorder},
     error::RendererError,
     fill_mesh::FillMesh,
+    frame::code::Mantissa,
+    frame::layers::Styled,
+    frame::select::Selection,
+    frame::sight::Sight,
+    frame::volumes::volumes,
     frame_stats::FrameStats,
-    gpu_mesh::GpuMesh,
-    layer_tables::{LayerTables, require},
-    layers::Styled,
+    gpu::count::{self, Drawn, Recorder},
+    gpu::gpu_mesh::GpuMesh,
+    gpu::layer_tables::{LayerTables, require},
+    gpu::pipelines::{FAR_PLANE_FEATURES, Input, Key, Pipelines},
+    gpu::targets::{Targets, TargetsKey},
     options::{CountTechnique, FillStyle, Frame, RendererOptions},
-    pipelines::{FAR_PLANE_FEATURES, Input, Key, Pipelines},
-    select::Selection,
-    sight::Sight,
-    targets::{Targets, TargetsKey},
     view::{MeshView, Prepared, Upload, View},
-    volumes::volumes,
 };
 
 /// Names a mesh in a [`Renderer`].

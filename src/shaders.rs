@@ -56,7 +56,7 @@ pub fn all() -> Vec<(&'static str, String)> {
 mod tests {
     use std::mem::{offset_of, size_of};
 
-    use crate::{gpu_mesh::ArcRecord, layer_tables::LayerHead, view::FrameUniform};
+    use crate::{gpu::gpu_mesh::ArcRecord, gpu::layer_tables::LayerHead, view::FrameUniform};
 
     /// Members of a WGSL struct with their offsets, bytes, and the size of the whole.
     fn layout_of(source: &str, name: &str) -> (Vec<(String, usize)>, usize) {

@@ -3,17 +3,17 @@
 use std::collections::HashMap;
 
 use crate::{
-    fixed_point::FixedEye,
+    frame::select::Selection,
+    frame::sight::Sight,
+    frame::volumes::Volume,
     frame_stats::FrameStats,
-    gpu_mesh::GpuMesh,
+    gpu::fixed_point::FixedEye,
+    gpu::gpu_mesh::GpuMesh,
+    gpu::pipelines::Pipelines,
+    gpu::stream_buffer::StreamBuffer,
+    gpu::targets::Targets,
     options::{CountTechnique, Frame},
-    pipelines::Pipelines,
     renderer::MeshId,
-    select::Selection,
-    sight::Sight,
-    stream_buffer::StreamBuffer,
-    targets::Targets,
-    volumes::Volume,
 };
 
 /// What a renderer keeps for one camera: targets of the size of its depth texture and what was

@@ -1,8 +1,8 @@
 //! Arcs: runs of boundary with the same pieces on either side, each found once.
 
 use crate::{
-    boundary_graph::{BoundaryGraph, DirectedEdge},
-    inside::Boundary,
+    boundary::boundary_graph::{BoundaryGraph, DirectedEdge},
+    boundary::inside::Boundary,
 };
 
 /// No piece.

@@ -4,7 +4,7 @@ use std::{collections::HashMap, ops::Range};
 
 use crate::{
     fill_mesh::FillMesh,
-    select::{LayerDraws, PatchRun, slot},
+    frame::select::{LayerDraws, PatchRun, slot},
 };
 
 /// The faces of one fill's volume. Shared walls are stored for the fill on their left; seen from the

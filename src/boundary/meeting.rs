@@ -3,11 +3,11 @@
 use glam::DVec3;
 
 use crate::{
-    boundary_graph::Edge,
+    boundary::boundary_graph::Edge,
+    boundary::edge_grid::LatticeBox,
+    boundary::lattice::{LatticePoint, TURN, orientation},
     curve::CurveOn,
-    edge_grid::LatticeBox,
     ellipsoid::Ellipsoid,
-    lattice::{LatticePoint, TURN, orientation},
     region::EdgeKind,
 };
 
@@ -312,7 +312,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::{boundary_graph::BoundaryGraph, curve::Curve, geodetic::LonLat};
+    use crate::{boundary::boundary_graph::BoundaryGraph, curve::Curve, geodetic::LonLat};
 
     fn edges(kind: EdgeKind, lines: [[(f64, f64); 2]; 2]) -> [Edge; 2] {
         let mut graph = BoundaryGraph::default();

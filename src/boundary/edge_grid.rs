@@ -5,8 +5,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use rayon::prelude::*;
 
 use crate::{
-    boundary_graph::Edge,
-    lattice::{POLE, TURN},
+    boundary::boundary_graph::Edge,
+    boundary::lattice::{POLE, TURN},
     region::EdgeKind,
 };
 
@@ -342,7 +342,7 @@ fn entry_count(boxes: &[LatticeBox], columns: i64, rows: i64, limit: u64) -> u64
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{boundary_graph::BoundaryGraph, lattice::LatticePoint};
+    use crate::{boundary::boundary_graph::BoundaryGraph, boundary::lattice::LatticePoint};
 
     #[test]
     fn a_dense_place_is_no_tangle_and_a_tangle_is_found_out() {

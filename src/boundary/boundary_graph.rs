@@ -5,9 +5,9 @@ use std::collections::hash_map::Entry;
 use rustc_hash::FxHashMap;
 
 use crate::{
+    boundary::lattice::{LatticePoint, steps, wrap},
     curve::Curve,
     geodetic::LonLat,
-    lattice::{LatticePoint, steps, wrap},
     region::EdgeKind,
 };
 

@@ -1,13 +1,13 @@
 //! Which side of a polygon's boundary is inside.
 
 use crate::{
-    authalic::{Authalic, Enclosed},
-    boundary_graph::{BoundaryGraph, DirectedEdge},
+    boundary::authalic::{Authalic, Enclosed},
+    boundary::boundary_graph::{BoundaryGraph, DirectedEdge},
+    boundary::lattice::LatticePoint,
+    boundary::meridian_index::MeridianIndex,
+    boundary::simple_loops::Component,
     ellipsoid::Ellipsoid,
-    lattice::LatticePoint,
-    meridian_index::MeridianIndex,
     region::Inside,
-    simple_loops::Component,
 };
 
 /// A polygon's boundary with the inside to the left of every loop.

@@ -1,9 +1,9 @@
 //! Where the mesh keeps the vertices of nodes and edges.
 
 use crate::{
-    arcs::Chain,
-    boundary_graph::{BoundaryGraph, DirectedEdge},
-    densify::DenseChain,
+    boundary::arcs::Chain,
+    boundary::boundary_graph::{BoundaryGraph, DirectedEdge},
+    mesh::densify::DenseChain,
 };
 
 /// Where the vertices of the graph's nodes and edges are in the mesh.

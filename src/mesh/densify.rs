@@ -3,8 +3,8 @@
 use glam::DVec3;
 
 use crate::{
-    arcs::Chain,
-    boundary_graph::BoundaryGraph,
+    boundary::arcs::Chain,
+    boundary::boundary_graph::BoundaryGraph,
     curve::{Curve, CurveOn},
     ellipsoid::Ellipsoid,
     fill_mesh::BoundaryVertex,

@@ -3,9 +3,9 @@
 use rustc_hash::FxHashMap;
 
 use crate::{
-    boundary_graph::{BoundaryGraph, DirectedEdge},
+    boundary::boundary_graph::{BoundaryGraph, DirectedEdge},
+    boundary::noding::PolygonWalk,
     ellipsoid::Ellipsoid,
-    noding::PolygonWalk,
     repair::{Place, Repair, RepairKind},
 };
 
@@ -164,7 +164,7 @@ impl Stars {
             }
         }
         for edges in edges_at.values_mut().filter(|edges| edges.len() > 2) {
-            crate::headings::sort_counter_clockwise(ellipsoid, graph, edges);
+            crate::boundary::headings::sort_counter_clockwise(ellipsoid, graph, edges);
         }
         Self { edges_at }
     }

@@ -2,7 +2,7 @@
 
 use wgpu::util::DeviceExt as _;
 
-use crate::{fill_mesh::FillMesh, fixed_point::encode, select::slot};
+use crate::{fill_mesh::FillMesh, frame::select::slot, gpu::fixed_point::encode};
 
 /// Boundary slots that share an entry of `arc_at`; the same in extrude.wgsl.
 const BLOCK: usize = 16;

@@ -11,8 +11,8 @@ use glam::DVec3;
 use crate::{
     curve::CurveOn,
     fill_mesh::{Arc, FillMesh},
-    fixed_point::{FixedVertex, encode},
-    sight::Sight,
+    frame::sight::Sight,
+    gpu::fixed_point::{FixedVertex, encode},
 };
 
 /// Ends of walls and columns lie within this many times the distance at which they are seen: single

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use crate::{
-    code::{MAX_PLANES, Mantissa},
+    frame::code::{MAX_PLANES, Mantissa},
     options::{DepthConvention, RendererOptions},
     shaders,
 };

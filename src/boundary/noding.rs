@@ -3,14 +3,14 @@
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::{
-    boundary_graph::{BoundaryGraph, DirectedEdge, Edge},
-    edge_grid::{EdgeGrid, LatticeBox},
+    boundary::boundary_graph::{BoundaryGraph, DirectedEdge, Edge},
+    boundary::edge_grid::{EdgeGrid, LatticeBox},
+    boundary::lattice::LatticePoint,
+    boundary::meeting::{Meeting, meetings},
+    boundary::rings::RingWalk,
     ellipsoid::Ellipsoid,
     error::RegionError,
-    lattice::LatticePoint,
-    meeting::{Meeting, meetings},
     repair::{Place, Repair, RepairKind},
-    rings::RingWalk,
 };
 
 /// A polygon of the input as walks on the boundary graph: the shell, then the holes.

@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use glam::DVec3;
 
 use crate::{
-    boundary_graph::{BoundaryGraph, DirectedEdge},
+    boundary::boundary_graph::{BoundaryGraph, DirectedEdge},
     ellipsoid::Ellipsoid,
     region::EdgeKind,
 };

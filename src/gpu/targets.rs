@@ -3,8 +3,8 @@
 use glam::UVec2;
 
 use crate::{
-    code::MAX_PLANES,
-    pipelines::{Pipelines, Planes, STENCIL_FORMAT},
+    frame::code::MAX_PLANES,
+    gpu::pipelines::{Pipelines, Planes, STENCIL_FORMAT},
 };
 
 /// What targets depend on.

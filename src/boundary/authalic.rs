@@ -5,10 +5,10 @@ use std::f64::consts::TAU;
 use geographiclib_rs::{Geodesic, geodesic_capability as capability};
 
 use crate::{
-    boundary_graph::{BoundaryGraph, DirectedEdge, Edge},
+    boundary::boundary_graph::{BoundaryGraph, DirectedEdge, Edge},
+    boundary::lattice::{LatticePoint, TURN},
+    curve::isometric::IsometricLatitude,
     ellipsoid::Ellipsoid,
-    isometric::IsometricLatitude,
-    lattice::{LatticePoint, TURN},
     region::EdgeKind,
 };
 
@@ -96,7 +96,7 @@ impl Authalic {
             turn: edge.turn(),
         };
         // A walk through a pole jumps from the meridian it came on to the one it leaves on.
-        let end = LatticePoint::new(crate::lattice::wrap(edge.end.lon), edge.end.lat);
+        let end = LatticePoint::new(crate::boundary::lattice::wrap(edge.end.lon), edge.end.lat);
         for (point, sign) in [(edge.start, 1), (end, -1)] {
             if point.is_pole() {
                 let jump = sign * point.lon;

@@ -5,9 +5,9 @@
 //! gets the higher layer: the host's blending then composes them in order.
 
 use crate::{
-    code::{Code, Mantissa},
     error::RendererError,
     fill_mesh::{Bounds, FillMesh},
+    frame::code::{Code, Mantissa},
     options::{CountTechnique, FillStyle},
 };
 

@@ -2,7 +2,9 @@
 
 use std::ops::Range;
 
-use crate::{fill_mesh::FillMesh, layers::PieceCode, refine::Patch, sight::Sight};
+use crate::{
+    fill_mesh::FillMesh, frame::layers::PieceCode, frame::refine::Patch, frame::sight::Sight,
+};
 
 /// What is drawn of one mesh.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -4,23 +4,23 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::{
-    arcs::{Chain, EdgeSides, chains},
-    authalic::Authalic,
-    boundary_graph::BoundaryGraph,
-    densify::{DenseChain, densify},
+    boundary::arcs::{Chain, EdgeSides, chains},
+    boundary::authalic::Authalic,
+    boundary::boundary_graph::BoundaryGraph,
+    boundary::inside::{Boundary, direct},
+    boundary::noding::{PolygonPairs, PolygonWalk, node_boundaries},
+    boundary::overlaps::overlaps,
+    boundary::rings::{RingWalk, walk_ring},
+    boundary::simple_loops::{Component, even_odd_components},
+    boundary::vertex_runs::VertexRuns,
     ellipsoid::Ellipsoid,
     error::RegionError,
     fill_mesh::{Arc, BoundaryVertex, Bounds, Fill, FillMesh, MeshOptions, Piece},
     geodetic::LonLat,
-    inside::{Boundary, direct},
-    noding::{PolygonPairs, PolygonWalk, node_boundaries},
-    overlaps::overlaps,
+    mesh::densify::{DenseChain, densify},
+    mesh::triangulate::{Caps, triangulate},
     region::{EdgeKind, Polygon, Region},
     repair::{Place, Repair, RepairKind},
-    rings::{RingWalk, walk_ring},
-    simple_loops::{Component, even_odd_components},
-    triangulate::{Caps, triangulate},
-    vertex_runs::VertexRuns,
 };
 
 /// Runs the whole pipeline.

@@ -1,11 +1,11 @@
 //! Which boundaries a meridian crosses on its way from a point to the north pole.
 
 use crate::{
-    boundary_graph::{BoundaryGraph, DirectedEdge},
-    edge_grid::LatticeBox,
+    boundary::boundary_graph::{BoundaryGraph, DirectedEdge},
+    boundary::edge_grid::LatticeBox,
+    boundary::lattice::{LatticePoint, TURN, wrap},
+    boundary::meeting::passes_north_of,
     ellipsoid::Ellipsoid,
-    lattice::{LatticePoint, TURN, wrap},
-    meeting::passes_north_of,
 };
 
 /// Labelled edges sorted into columns of longitude.

@@ -1,13 +1,13 @@
 //! Recording the count passes.
 
 use crate::{
-    gpu_mesh::GpuMesh,
+    frame::select::LayerDraws,
+    frame::volumes::{Volume, Walls},
+    gpu::gpu_mesh::GpuMesh,
+    gpu::pipelines::{Input, Key, ONE_COUNTED, Pipelines, Planes},
+    gpu::targets::{LayerTarget, Targets},
     options::CountTechnique,
-    pipelines::{Input, Key, ONE_COUNTED, Pipelines, Planes},
-    select::LayerDraws,
-    targets::{LayerTarget, Targets},
     view::{LayerView, MeshView, Prepared},
-    volumes::{Volume, Walls},
 };
 
 /// A mesh as one view draws it.

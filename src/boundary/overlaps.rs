@@ -10,12 +10,12 @@ use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use crate::{
-    arcs::EdgeSides,
-    boundary_graph::{BoundaryGraph, DirectedEdge},
+    boundary::arcs::EdgeSides,
+    boundary::boundary_graph::{BoundaryGraph, DirectedEdge},
+    boundary::headings::sort_counter_clockwise,
+    boundary::inside::{Boundary, point_on},
+    boundary::meridian_index::MeridianIndex,
     ellipsoid::Ellipsoid,
-    headings::sort_counter_clockwise,
-    inside::{Boundary, point_on},
-    meridian_index::MeridianIndex,
 };
 
 type Pair = (u32, u32);

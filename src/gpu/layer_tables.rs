@@ -3,11 +3,11 @@
 use wgpu::util::DeviceExt as _;
 
 use crate::{
-    code::Mantissa,
     error::RendererError,
-    layers::{Layer, Layering, Styled},
+    frame::code::Mantissa,
+    frame::layers::{Layer, Layering, Styled},
+    gpu::pipelines::Planes,
     options::CountTechnique,
-    pipelines::Planes,
 };
 
 /// The layers of everything visible, with the table of each that resolve reads.

@@ -1,12 +1,12 @@
 //! Rings as the caller wrote them → directed edges between lattice nodes.
 
 use crate::{
-    boundary_graph::{BoundaryGraph, DirectedEdge},
+    boundary::boundary_graph::{BoundaryGraph, DirectedEdge},
+    boundary::lattice::{LatticePoint, POLE, TURN},
     curve::Curve,
     ellipsoid::Ellipsoid,
     error::RegionError,
     geodetic::LonLat,
-    lattice::{LatticePoint, POLE, TURN},
     region::EdgeKind,
     repair::{Place, Repair, RepairKind},
 };

@@ -1,0 +1,16 @@
+//! From rings to arcs: validated, noded, oriented, and every border once.
+
+pub(crate) mod arcs;
+pub(crate) mod authalic;
+pub(crate) mod boundary_graph;
+pub(crate) mod edge_grid;
+pub(crate) mod headings;
+pub(crate) mod inside;
+pub(crate) mod lattice;
+pub(crate) mod meeting;
+pub(crate) mod meridian_index;
+pub(crate) mod noding;
+pub(crate) mod overlaps;
+pub(crate) mod rings;
+pub(crate) mod simple_loops;
+pub(crate) mod vertex_runs;

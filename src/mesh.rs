@@ -1,0 +1,6 @@
+//! From arcs to the mesh: points on the true edges, caps on the ellipsoid, bounds.
+
+pub(crate) mod bounds;
+pub(crate) mod densify;
+pub(crate) mod mesh_build;
+pub(crate) mod triangulate;
