@@ -9,6 +9,8 @@ struct Layer {
     digits: u32,
     // Number of planes: those after the digits check the id.
     planes: u32,
+    // Base of the checks.
+    check_base: u32,
     // Premultiplied colours by id - 1.
     colors: array<vec4<f32>>,
 }
@@ -25,7 +27,7 @@ fn planes_of(id: u32) -> vec4<f32> {
     var mixed = (id ^ (id >> 16u)) * 0x7feb352du;
     mixed = (mixed ^ (mixed >> 15u)) * 0x846ca68bu;
     mixed ^= mixed >> 16u;
-    let checks = vec2<u32>(mixed % 32u, mixed / 32u % 32u);
+    let checks = vec2<u32>(mixed, mixed / layer.check_base) % layer.check_base;
     if layer.digits > 1u {
         digits[1] = (id / layer.base) % layer.base;
     }

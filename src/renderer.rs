@@ -6,6 +6,7 @@ use crate::{
     error::RendererError,
     fill_mesh::FillMesh,
     frame::code::Mantissa,
+    frame::code::PlaneSums,
     frame::layers::Styled,
     frame::select::Selection,
     frame::sight::Sight,
@@ -309,11 +310,18 @@ impl Renderer {
 
     /// Whether the sums of this frame, refined walls included, are proven exact.
     fn has_head_room(&self, selections: &[Selected]) -> Result<bool, RendererError> {
-        let refined = selections
-            .iter()
-            .map(|selected| selected.selection.patch.indices.len() as u64 / 3)
-            .sum();
-        Ok(self.layers()?.leave_room_for(refined))
+        let layers = self.layers()?;
+        let refined: Vec<PlaneSums> = (0..layers.layering.layers.len())
+            .map(|layer| {
+                let mut sums = PlaneSums::default();
+                for selected in selections {
+                    let mesh = &self.meshes[&selected.id].mesh;
+                    selected.selection.layers[layer].add_refined_sums(mesh, &mut sums);
+                }
+                sums
+            })
+            .collect();
+        Ok(layers.leave_room_for(&refined))
     }
 
     fn layers(&self) -> Result<&LayerTables, RendererError> {

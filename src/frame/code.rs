@@ -8,8 +8,11 @@
 pub(crate) const MAX_PLANES: u32 = 4;
 /// Digits are stored in 8 bits.
 const MAX_BASE: u32 = 256;
-/// Check digits are below this.
-const CHECK_BASE: u32 = 32;
+/// Check digits are below the first of these that leaves head-room.
+const CHECK_BASES: [u32; 2] = [32, 4];
+
+/// One number for each plane of a code.
+pub(crate) type PlaneSums = [u64; MAX_PLANES as usize];
 
 /// How many partial sums a float format holds exactly.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,6 +24,11 @@ pub(crate) enum Mantissa {
 }
 
 impl Mantissa {
+    /// Whether sums stay within the integers that are exact.
+    pub(crate) fn holds(self, sums: &PlaneSums) -> bool {
+        sums.iter().all(|&sum| sum < self.limit())
+    }
+
     fn limit(self) -> u64 {
         match self {
             Self::Half => 1 << 11,
@@ -36,6 +44,8 @@ pub(crate) struct Code {
     pub base: u32,
     pub digits: u32,
     pub planes: u32,
+    /// Base of the planes behind the digits, which check them.
+    pub check_base: u32,
 }
 
 impl Code {
@@ -43,7 +53,7 @@ impl Code {
     /// triangles drawn for each id; `None` if there is none.
     pub(crate) fn fitting(triangles_by_id: &[u64], mantissa: Mantissa) -> Option<Self> {
         Self::candidates(triangles_by_id.len() as u32)
-            .find(|code| code.largest_sum(triangles_by_id) < mantissa.limit())
+            .find(|code| mantissa.holds(&code.largest_sums(triangles_by_id)))
     }
 
     /// A code for counting by stencil, where nothing is summed.
@@ -58,31 +68,29 @@ impl Code {
         } else {
             &[(1, 2), (2, 4), (3, 4)]
         };
-        shapes.iter().filter_map(move |&(digits, planes)| {
-            let base = (2..=MAX_BASE).find(|base| base.pow(digits) > fills)?;
-            Some(Self {
-                fills,
-                base,
-                digits,
-                planes,
+        CHECK_BASES.into_iter().flat_map(move |check_base| {
+            shapes.iter().filter_map(move |&(digits, planes)| {
+                let base = (2..=MAX_BASE).find(|base| base.pow(digits) > fills)?;
+                Some(Self {
+                    fills,
+                    base,
+                    digits,
+                    planes,
+                    check_base,
+                })
             })
         })
     }
 
-    /// Upper bound of |partial sum| on any plane and pixel.
-    pub(crate) fn largest_sum(&self, triangles_by_id: &[u64]) -> u64 {
-        let mut sums = [0; MAX_PLANES as usize];
+    /// Upper bounds of |partial sum| on any pixel, by plane.
+    pub(crate) fn largest_sums(&self, triangles_by_id: &[u64]) -> PlaneSums {
+        let mut sums = PlaneSums::default();
         for (id, triangles) in (1..).zip(triangles_by_id) {
             for (sum, digit) in sums.iter_mut().zip(self.planes_of(id)) {
                 *sum += triangles * u64::from(digit);
             }
         }
-        sums.into_iter().max().unwrap_or(0)
-    }
-
-    /// Whether `extra` further triangles, of any ids, fit as well.
-    pub(crate) fn leaves_room(&self, sum: u64, extra: u64, mantissa: Mantissa) -> bool {
-        sum + extra * u64::from(self.base.max(CHECK_BASE) - 1) < mantissa.limit()
+        sums
     }
 
     /// The digits and checks that make up the code of `id`; the same as `planes_of` in resolve.wgsl.
@@ -91,7 +99,10 @@ impl Code {
         let mut mixed = (id ^ (id >> 16)).wrapping_mul(0x7feb_352d);
         mixed = (mixed ^ (mixed >> 15)).wrapping_mul(0x846c_a68b);
         mixed ^= mixed >> 16;
-        let checks = [mixed % CHECK_BASE, mixed / CHECK_BASE % CHECK_BASE];
+        let checks = [
+            mixed % self.check_base,
+            mixed / self.check_base % self.check_base,
+        ];
         let mut planes = [0; MAX_PLANES as usize];
         let mut rest = id;
         for digit in &mut planes[..self.digits as usize] {

@@ -7,7 +7,7 @@
 use crate::{
     error::RendererError,
     fill_mesh::{Bounds, FillMesh},
-    frame::code::{Code, Mantissa},
+    frame::code::{Code, Mantissa, PlaneSums},
     options::{CountTechnique, FillStyle},
 };
 
@@ -34,8 +34,8 @@ pub(crate) struct Layer {
     /// Ids are positions in this list, plus one.
     pub fills: Vec<FillOf>,
     pub code: Code,
-    /// Upper bound of |partial sum| with everything drawn that is stored.
-    pub largest_sum: u64,
+    /// Upper bounds of |partial sum|, by plane, with everything drawn that is stored.
+    pub largest_sums: PlaneSums,
 }
 
 /// Layer and packed code of a piece.
@@ -89,7 +89,7 @@ impl Layering {
             .zip(&triangles)
             .map(|((fills, code), by_id)| Layer {
                 fills,
-                largest_sum: code.largest_sum(by_id),
+                largest_sums: code.largest_sums(by_id),
                 code,
             })
             .collect();

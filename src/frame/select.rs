@@ -3,7 +3,8 @@
 use std::ops::Range;
 
 use crate::{
-    fill_mesh::FillMesh, frame::layers::PieceCode, frame::refine::Patch, frame::sight::Sight,
+    fill_mesh::FillMesh, frame::code::PlaneSums, frame::layers::PieceCode, frame::refine::Patch,
+    frame::sight::Sight,
 };
 
 /// What is drawn of one mesh.
@@ -107,6 +108,21 @@ impl Selection {
                 self.fills_drawn += 1;
             } else if any(codes) {
                 self.fills_culled += 1;
+            }
+        }
+    }
+}
+
+impl LayerDraws {
+    /// Adds to `sums` what the refined walls may add to any pixel, by plane.
+    pub(crate) fn add_refined_sums(&self, mesh: &FillMesh, sums: &mut PlaneSums) {
+        for run in &self.patches {
+            let arc = &mesh.arcs[run.arc as usize];
+            let [left, right] =
+                [arc.left, arc.right].map(|side| code_of(&self.codes, side).to_le_bytes());
+            let triangles = run.indices.len() as u64 / 3;
+            for (plane, sum) in sums.iter_mut().enumerate() {
+                *sum += triangles * u64::from(left[plane].abs_diff(right[plane]));
             }
         }
     }

@@ -4,7 +4,7 @@ use wgpu::util::DeviceExt as _;
 
 use crate::{
     error::RendererError,
-    frame::code::Mantissa,
+    frame::code::{Mantissa, PlaneSums},
     frame::layers::{Layer, Layering, Styled},
     gpu::pipelines::Planes,
     options::CountTechnique,
@@ -58,14 +58,19 @@ impl LayerTables {
             .collect()
     }
 
-    /// Whether sums stay exact with `extra` triangles beside the stored ones.
-    pub(crate) fn leave_room_for(&self, extra: u64) -> bool {
+    /// Whether sums stay exact with `refined[layer]` added to what is stored.
+    pub(crate) fn leave_room_for(&self, refined: &[PlaneSums]) -> bool {
         self.layering.technique == CountTechnique::Stencil
-            || self.layering.layers.iter().all(|layer| {
-                layer
-                    .code
-                    .leaves_room(layer.largest_sum, extra, self.mantissa)
-            })
+            || self
+                .layering
+                .layers
+                .iter()
+                .zip(refined)
+                .all(|(layer, refined)| {
+                    let sums =
+                        std::array::from_fn(|plane| layer.largest_sums[plane] + refined[plane]);
+                    self.mantissa.holds(&sums)
+                })
     }
 }
 
@@ -77,6 +82,9 @@ pub(crate) struct LayerHead {
     pub base: u32,
     pub digits: u32,
     pub planes: u32,
+    pub check_base: u32,
+    /// Colours start at a multiple of 16 bytes.
+    pub padding: [u32; 3],
 }
 
 fn table(device: &wgpu::Device, layer: &Layer, styled: &[Styled<'_>]) -> wgpu::Buffer {
@@ -85,6 +93,8 @@ fn table(device: &wgpu::Device, layer: &Layer, styled: &[Styled<'_>]) -> wgpu::B
         base: layer.code.base,
         digits: layer.code.digits,
         planes: layer.code.planes,
+        check_base: layer.code.check_base,
+        padding: [0; 3],
     };
     let mut bytes = bytemuck::bytes_of(&head).to_vec();
     for fill in &layer.fills {

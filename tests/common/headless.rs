@@ -13,21 +13,29 @@ pub struct Gpu {
 /// The device. Without an adapter: None, said loudly; a failure where CI=true.
 pub fn gpu() -> Option<&'static Gpu> {
     static GPU: OnceLock<Result<Gpu, String>> = OnceLock::new();
-    match GPU.get_or_init(|| pollster::block_on(open())) {
-        Ok(gpu) => Some(gpu),
-        Err(reason) => {
-            let ci = std::env::var("CI").is_ok_and(|value| value == "true" || value == "1");
-            assert!(!ci, "CI must draw, and there is no GPU adapter: {reason}");
-            eprintln!(
-                "\n*** NOT TESTED: no GPU adapter ({reason}). Install a Vulkan driver; \
-                 Mesa's lavapipe (mesa-vulkan-drivers) will do. ***\n"
-            );
-            None
-        }
-    }
+    let opened = GPU.get_or_init(|| pollster::block_on(open(wgpu::Features::empty())));
+    opened.as_ref().map_err(|reason| missing(reason)).ok()
 }
 
-async fn open() -> Result<Gpu, String> {
+/// A device of its own that lacks `withheld`, as poorer adapters do.
+#[allow(dead_code, reason = "not every test binary tests poorer adapters")]
+pub fn gpu_without(withheld: wgpu::Features) -> Option<Gpu> {
+    pollster::block_on(open(withheld))
+        .map_err(|reason| missing(&reason))
+        .ok()
+}
+
+/// Says loudly that nothing was tested; fails where CI=true.
+fn missing(reason: &str) {
+    let ci = std::env::var("CI").is_ok_and(|value| value == "true" || value == "1");
+    assert!(!ci, "CI must draw, and there is no GPU adapter: {reason}");
+    eprintln!(
+        "\n*** NOT TESTED: no GPU adapter ({reason}). Install a Vulkan driver; \
+         Mesa's lavapipe (mesa-vulkan-drivers) will do. ***\n"
+    );
+}
+
+async fn open(withheld: wgpu::Features) -> Result<Gpu, String> {
     let instance =
         wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
     let adapter = instance
@@ -36,7 +44,7 @@ async fn open() -> Result<Gpu, String> {
         .map_err(|error| error.to_string())?;
     let (device, queue) = adapter
         .request_device(&wgpu::DeviceDescriptor {
-            required_features: Renderer::wanted_features() & adapter.features(),
+            required_features: (Renderer::wanted_features() & adapter.features()) - withheld,
             required_limits: adapter.limits(),
             ..Default::default()
         })
