@@ -73,7 +73,7 @@ pub(crate) struct Sight {
     pub surface_m: (f64, f64),
     pub extrusion: Extrusion,
     /// Inward normals of the frustum's side planes, which pass through the eye.
-    side_planes: [DVec3; 4],
+    pub side_planes: [DVec3; 4],
 }
 
 impl Sight {
