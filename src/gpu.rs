@@ -1,9 +1,11 @@
 //! Upload, and the passes that count and resolve.
 
 pub(crate) mod count;
+pub(crate) mod fixed_function;
 pub(crate) mod fixed_point;
 pub(crate) mod gpu_mesh;
 pub(crate) mod layer_tables;
 pub(crate) mod pipelines;
+pub(crate) mod planes;
 pub(crate) mod stream_buffer;
 pub(crate) mod targets;

@@ -127,7 +127,8 @@ fn bad_frames_and_styles_are_typed_errors_and_change_nothing() {
     let mut view = View::default();
     let before = painter.draw(gpu, &mut view, &surface, 0.0);
     let good = Frame::new(surface.lens.camera(), surface.size_px());
-    let bad: [(&str, fn(&mut Frame)); 7] = [
+    type Spoil = fn(&mut Frame);
+    let bad: [(&str, Spoil); 7] = [
         ("camera.eye_ecef_m", |frame| {
             frame.camera.eye_ecef_m.y = f64::NAN
         }),

@@ -3,8 +3,10 @@
 use crate::{
     frame::select::LayerDraws,
     frame::volumes::{Volume, Walls},
+    gpu::fixed_function::ONE_COUNTED,
     gpu::gpu_mesh::GpuMesh,
-    gpu::pipelines::{Input, Key, ONE_COUNTED, Pipelines, Planes},
+    gpu::pipelines::{Input, Key, Pipelines},
+    gpu::planes::Planes,
     gpu::targets::{LayerTarget, Targets},
     options::CountTechnique,
     view::{LayerView, MeshView, Prepared},

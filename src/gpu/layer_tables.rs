@@ -6,7 +6,7 @@ use crate::{
     error::RendererError,
     frame::code::{Mantissa, PlaneSums},
     frame::layers::{Layer, Layering, Styled},
-    gpu::pipelines::Planes,
+    gpu::planes::Planes,
     options::CountTechnique,
 };
 

@@ -3,7 +3,9 @@
 use std::collections::HashMap;
 
 use crate::{
-    frame::code::{MAX_PLANES, Mantissa},
+    frame::code::MAX_PLANES,
+    gpu::fixed_function::{ADD, STENCIL_FORMAT, counting_stencil, depth_stencil, painting},
+    gpu::planes::Planes,
     options::{DepthConvention, RendererOptions},
     shaders,
 };
@@ -11,13 +13,6 @@ use crate::{
 /// What it takes to draw into depth with a far plane, which must not clip the volumes.
 pub(crate) const FAR_PLANE_FEATURES: wgpu::Features =
     wgpu::Features::DEPTH_CLIP_CONTROL.union(wgpu::Features::CLIP_DISTANCES);
-
-/// Depth and stencil of the stencil technique.
-pub(crate) const STENCIL_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32FloatStencil8;
-
-/// The stencil reference while volumes are painted: the count inside one volume. Counts are compared
-/// as reference `compare` count; −1 wraps to 255.
-pub(crate) const ONE_COUNTED: u32 = 1;
 
 /// What is drawn: each input kind has its own vertex entry point and topology.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -28,39 +23,6 @@ pub(crate) enum Input {
     Walls,
     /// Refined walls, indexed.
     Patches,
-}
-
-/// Which planes a layer has, and in which float format.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(crate) struct Planes {
-    pub count: u32,
-    pub half: bool,
-}
-
-impl Planes {
-    pub(crate) fn new(count: u32, mantissa: Mantissa) -> Self {
-        Self {
-            count,
-            half: mantissa == Mantissa::Half,
-        }
-    }
-
-    /// Formats of the targets: one with all planes, or one each where samples are many (32-bit
-    /// formats with several channels cannot be multisampled).
-    pub(crate) fn formats(self, sample_count: u32) -> Vec<wgpu::TextureFormat> {
-        use wgpu::TextureFormat as F;
-        let (one, two, four) = if self.half {
-            (F::R16Float, F::Rg16Float, F::Rgba16Float)
-        } else {
-            (F::R32Float, F::Rg32Float, F::Rgba32Float)
-        };
-        match (sample_count, self.count) {
-            (1, 1) => vec![one],
-            (1, 2) => vec![two],
-            (1, _) => vec![four],
-            (_, count) => vec![one; count as usize],
-        }
-    }
 }
 
 /// Names a pipeline.
@@ -380,18 +342,6 @@ struct Recipe<'a> {
     depth_stencil: Option<wgpu::DepthStencilState>,
 }
 
-const ADD: wgpu::BlendState = {
-    let component = wgpu::BlendComponent {
-        src_factor: wgpu::BlendFactor::One,
-        dst_factor: wgpu::BlendFactor::One,
-        operation: wgpu::BlendOperation::Add,
-    };
-    wgpu::BlendState {
-        color: component,
-        alpha: component,
-    }
-};
-
 fn vertex_entry(input: Input) -> &'static str {
     match input {
         Input::Caps => "vs_cap",
@@ -406,58 +356,6 @@ fn cover_entry(input: Input) -> &'static str {
         Input::Walls => "vs_wall_cover",
         Input::Patches => "vs_patch_cover",
     }
-}
-
-fn depth_stencil(
-    format: wgpu::TextureFormat,
-    compare: wgpu::CompareFunction,
-    stencil: wgpu::StencilState,
-) -> wgpu::DepthStencilState {
-    wgpu::DepthStencilState {
-        format,
-        depth_write_enabled: Some(false),
-        depth_compare: Some(compare),
-        stencil,
-        bias: wgpu::DepthBiasState::default(),
-    }
-}
-
-/// Behind the surface, faces seen from inside the volume count up and those seen from outside down
-/// (z-fail). What is flipped is the operations: `front_face` stays the same in all pipelines.
-fn counting_stencil(flipped: bool) -> wgpu::StencilState {
-    let face = |inside| wgpu::StencilFaceState {
-        compare: wgpu::CompareFunction::Always,
-        fail_op: wgpu::StencilOperation::Keep,
-        depth_fail_op: wgpu::StencilOperation::Keep,
-        pass_op: if inside {
-            wgpu::StencilOperation::IncrementWrap
-        } else {
-            wgpu::StencilOperation::DecrementWrap
-        },
-    };
-    wgpu::StencilState {
-        front: face(flipped),
-        back: face(!flipped),
-        read_mask: 0xff,
-        write_mask: 0xff,
-    }
-}
-
-/// Paints where the stencil compares with [`ONE_COUNTED`], and clears it there.
-fn painting(compare: wgpu::CompareFunction) -> wgpu::DepthStencilState {
-    let face = wgpu::StencilFaceState {
-        compare,
-        fail_op: wgpu::StencilOperation::Keep,
-        depth_fail_op: wgpu::StencilOperation::Keep,
-        pass_op: wgpu::StencilOperation::Zero,
-    };
-    let stencil = wgpu::StencilState {
-        front: face,
-        back: face,
-        read_mask: 0xff,
-        write_mask: 0xff,
-    };
-    depth_stencil(STENCIL_FORMAT, wgpu::CompareFunction::Always, stencil)
 }
 
 fn shader(device: &wgpu::Device, label: &str, source: String) -> wgpu::ShaderModule {

@@ -3,8 +3,8 @@
 use glam::UVec2;
 
 use crate::{
-    frame::code::MAX_PLANES,
-    gpu::pipelines::{Pipelines, Planes, STENCIL_FORMAT},
+    frame::code::MAX_PLANES, gpu::fixed_function::STENCIL_FORMAT, gpu::pipelines::Pipelines,
+    gpu::planes::Planes,
 };
 
 /// What targets depend on.

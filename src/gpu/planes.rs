@@ -1,0 +1,36 @@
+//! The targets that winding sums are kept in.
+
+use crate::frame::code::Mantissa;
+
+/// Which planes a layer has, and in which float format.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct Planes {
+    pub count: u32,
+    pub half: bool,
+}
+
+impl Planes {
+    pub(crate) fn new(count: u32, mantissa: Mantissa) -> Self {
+        Self {
+            count,
+            half: mantissa == Mantissa::Half,
+        }
+    }
+
+    /// Formats of the targets: one with all planes, or one each where samples are many (32-bit
+    /// formats with several channels cannot be multisampled).
+    pub(crate) fn formats(self, sample_count: u32) -> Vec<wgpu::TextureFormat> {
+        use wgpu::TextureFormat as F;
+        let (one, two, four) = if self.half {
+            (F::R16Float, F::Rg16Float, F::Rgba16Float)
+        } else {
+            (F::R32Float, F::Rg32Float, F::Rgba32Float)
+        };
+        match (sample_count, self.count) {
+            (1, 1) => vec![one],
+            (1, 2) => vec![two],
+            (1, _) => vec![four],
+            (_, count) => vec![one; count as usize],
+        }
+    }
+}

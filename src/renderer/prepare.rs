@@ -1,0 +1,260 @@
+//! Preparing a frame: layers, selection, targets, pipelines, upload.
+
+use super::{MeshId, Renderer};
+use crate::{
+    error::RendererError,
+    frame::code::PlaneSums,
+    frame::layers::Styled,
+    frame::select::Selection,
+    frame::sight::Sight,
+    frame::volumes::volumes,
+    frame_stats::FrameStats,
+    gpu::count,
+    gpu::layer_tables::{LayerTables, require},
+    gpu::pipelines::{FAR_PLANE_FEATURES, Input, Key},
+    gpu::targets::{Targets, TargetsKey},
+    options::{CountTechnique, Frame},
+    view::{MeshView, Prepared, Upload, View},
+};
+
+impl Renderer {
+    /// What [`Renderer::prepare`] promises.
+    pub(super) fn prepare_view(
+        &mut self,
+        queue: &wgpu::Queue,
+        view: &mut View,
+        frame: &Frame,
+    ) -> Result<FrameStats, RendererError> {
+        if let Some(prepared) = &mut view.prepared
+            && prepared.frame == *frame
+            && prepared.revision == self.revision
+        {
+            prepared.stats.upload_bytes = 0;
+            return Ok(prepared.stats);
+        }
+        let (table_bytes, selections) = self.layers_and_selections(frame)?;
+        let layers = self.layers()?;
+        let sight = selections.first().map(|selected| &selected.sight);
+        let mut prepared = Prepared {
+            frame: *frame,
+            revision: self.revision,
+            technique: layers.layering.technique,
+            mirrored: sight.is_some_and(|sight| sight.mirrored),
+            unclipped: sight.is_some_and(|sight| sight.far_plane),
+            stats: FrameStats::default(),
+        };
+        if prepared.unclipped {
+            require(self.device.features(), FAR_PLANE_FEATURES)?;
+        }
+        self.ensure_targets(view, frame)?;
+        self.ensure_pipelines(&prepared, &selections)?;
+        prepared.stats.upload_bytes = table_bytes + self.upload(queue, view, selections);
+        self.fill_stats(view, &mut prepared);
+        view.prepared = Some(prepared);
+        Ok(prepared.stats)
+    }
+
+    /// Layers of the current styles and what the frame shows of them. Falls back to the stencil where
+    /// refined walls leave no head-room for winding sums. The number is of bytes uploaded.
+    fn layers_and_selections(
+        &mut self,
+        frame: &Frame,
+    ) -> Result<(u64, Vec<Selected>), RendererError> {
+        let mut bytes = 0;
+        if self.layers.is_none() {
+            bytes += self.assign_layers(self.options.count);
+        }
+        let selections = self.select(frame)?;
+        if self.has_head_room(&selections)? {
+            return Ok((bytes, selections));
+        }
+        bytes += self.assign_layers(CountTechnique::Stencil);
+        Ok((bytes, self.select(frame)?))
+    }
+
+    /// Makes the layers and their tables; returns the bytes uploaded.
+    fn assign_layers(&mut self, technique: CountTechnique) -> u64 {
+        let styled: Vec<Styled<'_>> = self
+            .meshes
+            .values()
+            .map(|resident| Styled {
+                mesh: &resident.mesh,
+                styles: &resident.styles,
+            })
+            .collect();
+        let tables = LayerTables::new(&self.device, &styled, technique, self.mantissa);
+        let bytes = tables.as_ref().map_or(0, |tables| tables.bytes);
+        self.layers = Some(tables);
+        bytes
+    }
+
+    /// Whether the sums of this frame, refined walls included, are proven exact.
+    fn has_head_room(&self, selections: &[Selected]) -> Result<bool, RendererError> {
+        let layers = self.layers()?;
+        let refined: Vec<PlaneSums> = (0..layers.layering.layers.len())
+            .map(|layer| {
+                let mut sums = PlaneSums::default();
+                for selected in selections {
+                    let mesh = &self.meshes[&selected.id].mesh;
+                    selected.selection.layers[layer].add_refined_sums(mesh, &mut sums);
+                }
+                sums
+            })
+            .collect();
+        Ok(layers.leave_room_for(&refined))
+    }
+
+    fn layers(&self) -> Result<&LayerTables, RendererError> {
+        match &self.layers {
+            Some(Ok(layers)) => Ok(layers),
+            Some(Err(error)) => Err(error.clone()),
+            None => Err(RendererError::NoSuchMesh),
+        }
+    }
+
+    fn select(&self, frame: &Frame) -> Result<Vec<Selected>, RendererError> {
+        let layering = &self.layers()?.layering;
+        let layer_count = layering.layers.len();
+        self.meshes
+            .iter()
+            .zip(&layering.codes)
+            .map(|((&id, resident), codes)| {
+                let mesh = &resident.mesh;
+                let sight = Sight::new(mesh.ellipsoid, mesh.sag_m, frame, &self.options)?;
+                Ok(Selected {
+                    id,
+                    selection: Selection::of(mesh, codes, layer_count, &sight),
+                    sight,
+                })
+            })
+            .collect()
+    }
+
+    fn ensure_targets(&self, view: &mut View, frame: &Frame) -> Result<(), RendererError> {
+        let layers = self.layers()?;
+        let key = TargetsKey {
+            size_px: frame.size_px,
+            planes: layers.planes(),
+            stencil: layers.layering.technique == CountTechnique::Stencil,
+            layer_revision: self.revision,
+        };
+        if view
+            .targets
+            .as_ref()
+            .is_none_or(|targets| targets.key != key)
+        {
+            let samples = self.options.sample_count;
+            let targets = Targets::new(&self.device, &self.pipelines, samples, &layers.tables, key);
+            view.targets = Some(targets);
+        }
+        Ok(())
+    }
+
+    fn ensure_pipelines(
+        &mut self,
+        prepared: &Prepared,
+        selections: &[Selected],
+    ) -> Result<(), RendererError> {
+        let planes = self.layers()?.planes();
+        let draws = |index: usize| {
+            let layer = move |selected: &Selected| selected.selection.layers[index].clone();
+            selections.iter().map(layer)
+        };
+        for (index, planes) in planes.into_iter().enumerate() {
+            let mut inputs = Vec::new();
+            for (input, used) in [
+                (
+                    Input::Caps,
+                    draws(index).any(|draws| !draws.caps.is_empty()),
+                ),
+                (
+                    Input::Walls,
+                    draws(index).any(|draws| !draws.walls.is_empty()),
+                ),
+                (
+                    Input::Patches,
+                    draws(index).any(|draws| !draws.patches.is_empty()),
+                ),
+            ] {
+                if used {
+                    inputs.push(input);
+                }
+            }
+            let keys = count::keys(prepared.technique, planes, prepared.unclipped, &inputs);
+            for key in keys.into_iter().chain([Key::Resolve]) {
+                self.pipelines.ensure(&self.device, key);
+            }
+        }
+        Ok(())
+    }
+
+    /// Uploads what the view's selection changes; returns the bytes.
+    fn upload(&self, queue: &wgpu::Queue, view: &mut View, selections: Vec<Selected>) -> u64 {
+        view.meshes.retain(|id, _| self.meshes.contains_key(id));
+        let mut bytes = 0;
+        for selected in selections {
+            let resident = &self.meshes[&selected.id];
+            let mesh_view = view
+                .meshes
+                .entry(selected.id)
+                .or_insert_with(|| MeshView::new(&self.device, &self.pipelines));
+            bytes += mesh_view.upload(
+                &Upload {
+                    device: &self.device,
+                    queue,
+                    pipelines: &self.pipelines,
+                    mesh: &resident.gpu,
+                },
+                &selected.sight,
+                selected.selection,
+            );
+        }
+        bytes
+    }
+
+    /// Volumes for the stencil, and the frame's statistics.
+    fn fill_stats(&self, view: &mut View, prepared: &mut Prepared) {
+        let stats = &mut prepared.stats;
+        stats.technique = prepared.technique;
+        for (id, resident) in &self.meshes {
+            stats.fills += resident.mesh.fills.len() as u32;
+            stats.gpu_bytes += resident.mesh.gpu_bytes();
+            let Some(mesh_view) = view.meshes.get_mut(id) else {
+                continue;
+            };
+            mesh_view.volumes = match prepared.technique {
+                CountTechnique::Winding => Vec::new(),
+                CountTechnique::Stencil => mesh_view
+                    .selection
+                    .layers
+                    .iter()
+                    .map(|draws| volumes(&resident.mesh, draws))
+                    .collect(),
+            };
+            let cost = count::cost(mesh_view);
+            stats.drawn += mesh_view.selection.fills_drawn;
+            stats.culled += mesh_view.selection.fills_culled;
+            stats.refined_chords += mesh_view.selection.patch.chords.len() as u32;
+            stats.draws += cost.draws;
+            stats.vertices += cost.vertices;
+        }
+        stats.layers = view
+            .targets
+            .as_ref()
+            .map_or(0, |targets| targets.layers.len() as u32);
+        // Resolve draws a triangle a layer; the stencil copies the depth once.
+        stats.draws += stats.layers;
+        stats.passes = stats.layers;
+        if prepared.technique == CountTechnique::Stencil && stats.layers > 0 {
+            stats.draws += 1;
+            stats.passes += 1;
+        }
+    }
+}
+
+/// What a frame shows of one mesh.
+struct Selected {
+    id: MeshId,
+    sight: Sight,
+    selection: Selection,
+}
