@@ -1,0 +1,6 @@
+//! Laws that every mesh keeps, on real countries and on shapes that break others.
+
+mod hostile;
+mod law;
+mod real;
+mod shapes;
