@@ -1,8 +1,9 @@
 //! Caps: triangles that fill closed loops on the ellipsoid.
 //!
 //! Everything happens on the unit sphere that the ellipsoid becomes when divided by its radii, in
-//! one stereographic [`Chart`] per piece whose projection point lies outside the piece. Stereographic
-//! circles are circles, so a Delaunay triangulation of the chart is one of the sphere.
+//! one stereographic [`Chart`] per piece whose projection point, the pole, is far from all loops.
+//! Stereographic circles are circles, so a Delaunay triangulation of the chart is one of the sphere. A
+//! pole inside the piece becomes a vertex: the chart's outer face is then a fan around it.
 //!
 //! Caps are *signed chains*: what must be right is their signed boundary, and it is right by
 //! construction, whatever crosses. Every loop edge is walked along edges of the triangulation, every
@@ -69,7 +70,8 @@ pub(crate) fn triangulate(ellipsoid: Ellipsoid, vertices: &[DVec3], loops: &[Vec
     {
         return outline.caps(ear_clip(&Chart::new(-centre), &outline.points), Vec::new());
     }
-    outline.triangulate_in(outline.chart(centre, radius_rad))
+    let (chart, winding_of_pole) = outline.chart(centre, radius_rad);
+    outline.triangulate_in(chart, winding_of_pole)
 }
 
 /// The whole ellipsoid.
@@ -155,23 +157,22 @@ impl<'a> Outline<'a> {
         area < -uncertain
     }
 
-    /// A chart whose projection point is well away from the loops, and outside the piece.
-    fn chart(&self, centre: DVec3, radius_rad: f64) -> Chart {
+    /// A chart whose pole is well away from the loops, and how often they wind around the pole.
+    ///
+    /// Near the pole straight lines of the chart are not at all great circles: it never moves into a
+    /// hole, which may be narrower than its chords are long.
+    fn chart(&self, centre: DVec3, radius_rad: f64) -> (Chart, i32) {
         /// Wide enough that the chart's scale varies by less than a factor of 4.
         const WIDE_RAD: f64 = 2.1;
-        let centre = if radius_rad < WIDE_RAD {
-            centre
+        let pole = if radius_rad < WIDE_RAD {
+            -centre
         } else {
-            -self.farthest_candidate(-centre)
+            self.farthest_candidate(-centre)
         };
-        let chart = Chart::new(-centre);
-        if !self.contains_antipode(centre) {
-            return chart;
-        }
-        let holes = Constrained::new(chart, self);
-        match holes.and_then(|holes| holes.point_outside()) {
-            Some(point) => Chart::new(point),
-            None => chart,
+        if self.contains_antipode(-pole) {
+            (Chart::new(lattice::nearest(pole)), 1)
+        } else {
+            (Chart::new(pole), 0)
         }
     }
 
@@ -189,8 +190,8 @@ impl<'a> Outline<'a> {
             .unwrap_or(first)
     }
 
-    fn triangulate_in(&self, chart: Chart) -> Caps {
-        let Some(mut constrained) = Constrained::new(chart, self) else {
+    fn triangulate_in(&self, chart: Chart, winding_of_pole: i32) -> Caps {
+        let Some(mut constrained) = Constrained::new(chart, winding_of_pole, self) else {
             return self.caps(self.fans(), Vec::new());
         };
         refine(&mut constrained);

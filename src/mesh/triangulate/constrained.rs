@@ -26,6 +26,8 @@ pub(super) struct Constrained {
     /// less how often they walk against it. Constraint edges keep their handles when vertices are
     /// added, and edges made later bound nothing.
     walked: Vec<i32>,
+    /// How often the loops wind around the chart's pole. If at all, the pole is a vertex, the last.
+    pub winding_of_pole: i32,
     /// Per face, how often the loops wind around it.
     winding: Vec<i32>,
     /// Triangles of the outline's points between loop edges and their walks.
@@ -34,7 +36,7 @@ pub(super) struct Constrained {
 
 impl Constrained {
     /// Triangulates an outline; `None` if in this chart all its points lie on one line.
-    pub(super) fn new(chart: Chart, outline: &Outline) -> Option<Self> {
+    pub(super) fn new(chart: Chart, winding_of_pole: i32, outline: &Outline) -> Option<Self> {
         let mut sites = Sites::new(&chart, &outline.points);
         let mut this = Self {
             chart,
@@ -46,6 +48,7 @@ impl Constrained {
                 .collect(),
             names: sites.names,
             walked: Vec::new(),
+            winding_of_pole,
             winding: Vec::new(),
             ears: Vec::new(),
         };
@@ -112,11 +115,11 @@ impl Constrained {
         }
     }
 
-    /// Counts how often the loops wind around each face, from the outside inwards.
+    /// Counts how often the loops wind around each face, from the pole inwards.
     pub(super) fn wind(&mut self) {
         const UNKNOWN: i32 = i32::MIN;
         let mut winding = vec![UNKNOWN; self.cdt.num_all_faces()];
-        winding[self.cdt.outer_face().fix().index()] = 0;
+        winding[self.cdt.outer_face().fix().index()] = self.winding_of_pole;
         let hull = self.cdt.directed_edges().filter(|e| e.is_outer_edge());
         let mut pending: Vec<_> = hull.collect();
         while let Some(edge) = pending.pop() {
@@ -143,59 +146,6 @@ impl Constrained {
         self.winding[face.index()]
     }
 
-    /// A point around which the loops wind least often, as deep as possible in a face.
-    pub(super) fn point_outside(&self) -> Option<DVec3> {
-        let lowest = self
-            .cdt
-            .fixed_inner_faces()
-            .map(|f| self.winding(f))
-            .min()?;
-        let faces = self
-            .cdt
-            .fixed_inner_faces()
-            .filter(|&f| self.winding(f) == lowest);
-        let deepest = faces
-            .map(|face| self.incircle(face))
-            .max_by(|a, b| a.1.total_cmp(&b.1))?;
-        Some(self.chart.unproject(deepest.0))
-    }
-
-    /// Centre in the chart, and radius on the sphere, of the circle inscribed in a face.
-    fn incircle(&self, face: Face) -> (DVec2, f64) {
-        let [a, b, c] = self
-            .cdt
-            .face(face)
-            .positions()
-            .map(|p| DVec2::new(p.x, p.y));
-        let sides = [b.distance(c), c.distance(a), a.distance(b)];
-        let circumference = sides[0] + sides[1] + sides[2];
-        let centre = (a * sides[0] + b * sides[1] + c * sides[2]) / circumference;
-        let radius = (b - a).perp_dot(c - a) / circumference;
-        (centre, radius * Chart::scale(centre))
-    }
-
-    /// The point of a face, in the chart, that is nearest to the chart's centre.
-    pub(super) fn nearest_to_centre(&self, face: Face) -> DVec2 {
-        let centre = Point2::new(0.0, 0.0);
-        let edges = self.cdt.face(face).adjacent_edges();
-        if edges
-            .iter()
-            .all(|e| e.side_query(centre).is_on_left_side_or_on_line())
-        {
-            return DVec2::ZERO;
-        }
-        let nearest = edges.map(|e| e.as_undirected().nearest_point(centre));
-        let nearest = nearest.map(|p| DVec2::new(p.x, p.y));
-        let closer = |a: DVec2, b: DVec2| {
-            if a.length_squared() < b.length_squared() {
-                a
-            } else {
-                b
-            }
-        };
-        closer(closer(nearest[0], nearest[1]), nearest[2])
-    }
-
     /// The points of a face's corners.
     pub(super) fn corners(&self, face: Face) -> [DVec3; 3] {
         let vertices = self.cdt.face(face).vertices();
@@ -210,6 +160,7 @@ impl Constrained {
             PositionInTriangulation::OnEdge(edge) => {
                 !self.cdt.is_constraint_edge(edge.as_undirected())
             }
+            PositionInTriangulation::OutsideOfConvexHull(_) => true,
             _ => false,
         };
         // A finite position is the only condition of an insertion.
@@ -231,6 +182,15 @@ impl Constrained {
             let triangle = if winding > 0 { [a, b, c] } else { [a, c, b] };
             triangles.extend((0..winding.unsigned_abs()).map(|_| triangle));
         }
+        for _ in 0..self.winding_of_pole {
+            let pole = name(self.points.len());
+            let hull = self.cdt.convex_hull();
+            // The outer face, and with it the pole, is on the left of these edges.
+            triangles.extend(hull.map(|edge| {
+                let [from, to] = edge.vertices().map(|v| name(v.index()));
+                [from, to, pole]
+            }));
+        }
         triangles
     }
 
@@ -241,6 +201,8 @@ impl Constrained {
 
     /// The vertices that were added inside.
     pub(super) fn into_interior(mut self) -> Vec<DVec3> {
+        let pole = (self.winding_of_pole != 0).then(|| -self.chart.centre());
+        self.points.extend(pole);
         self.points.split_off(self.names.len())
     }
 }

@@ -41,6 +41,8 @@ pub(super) fn refine(constrained: &mut Constrained) {
 /// Per face, whether it is filled and sags too deep.
 fn deep_faces(constrained: &Constrained) -> Vec<bool> {
     let mut deep = vec![false; constrained.cdt.num_all_faces()];
+    let outer = constrained.cdt.outer_face().fix();
+    deep[outer.index()] = constrained.winding_of_pole != 0;
     for face in constrained.cdt.fixed_inner_faces() {
         deep[face.index()] = is_deep(constrained, face);
     }
@@ -51,38 +53,46 @@ fn is_deep(constrained: &Constrained, face: Face) -> bool {
     if constrained.winding(face) == 0 {
         return false;
     }
-    let corners = constrained.corners(face);
-    sag::deeper(sag::limit(), corners) > sag::limit() || goes_round(constrained, face, corners)
-}
-
-/// Whether a face of the chart is the far side of the small flat triangle between its corners: three
-/// corners of a hole whose outside is filled.
-fn goes_round(constrained: &Constrained, face: Face, [a, b, c]: [DVec3; 3]) -> bool {
-    // The circle through the corners is then larger than a great one; but so is that of slivers.
-    if a.dot((b - a).cross(c - a)) > 0.0 {
-        return false;
-    }
-    let farthest = constrained
-        .chart
-        .unproject(constrained.nearest_to_centre(face));
-    let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
-    farthest.distance(a) > longest
+    sag::deeper(sag::limit(), constrained.corners(face)) > sag::limit()
 }
 
 /// The lattice points in deep faces, away from their corners, each with one of these.
 fn lattice_points(constrained: &Constrained, deep: &[bool]) -> Vec<(DVec3, FixedVertexHandle)> {
     let centre = constrained.chart.centre();
+    let pole_is_inside = constrained.winding_of_pole != 0;
     let boundary = constrained.points.iter().map(|p| p.dot(centre));
-    let lowest = boundary.fold(1.0, f64::min);
+    let lowest = if pole_is_inside {
+        -1.0
+    } else {
+        boundary.fold(1.0, f64::min)
+    };
+    let clear =
+        |point: DVec3, corner: DVec3| corner.distance_squared(point) > CLEARANCE_RAD.powi(2);
     let mut found = Vec::new();
     for &point in LATTICE.points.iter().filter(|p| p.dot(centre) > lowest) {
+        // The pole, a lattice point where it is inside, is a vertex already.
+        if pole_is_inside && !clear(point, -centre) {
+            continue;
+        }
         let position = position(constrained.chart.project(point));
-        if let PositionInTriangulation::OnFace(face) = constrained.cdt.locate(position) {
-            let clear = |corner: DVec3| corner.distance_squared(point) > CLEARANCE_RAD.powi(2);
-            if deep[face.index()] && constrained.corners(face).into_iter().all(clear) {
-                let corner = constrained.cdt.face(face).vertices()[0];
-                found.push((point, corner.fix()));
+        match constrained.cdt.locate(position) {
+            PositionInTriangulation::OnFace(face) => {
+                let corners = constrained.corners(face);
+                if deep[face.index()] && corners.into_iter().all(|c| clear(point, c)) {
+                    let corner = constrained.cdt.face(face).vertices()[0];
+                    found.push((point, corner.fix()));
+                }
             }
+            PositionInTriangulation::OutsideOfConvexHull(edge) if pole_is_inside => {
+                let ends = constrained.cdt.directed_edge(edge).vertices();
+                if ends
+                    .iter()
+                    .all(|v| clear(point, constrained.points[v.index()]))
+                {
+                    found.push((point, ends[0].fix()));
+                }
+            }
+            _ => {}
         }
     }
     found

@@ -65,6 +65,12 @@ impl Lattice {
     }
 }
 
+/// The lattice point nearest to a unit vector.
+pub(super) fn nearest(point: DVec3) -> DVec3 {
+    let closer = |a: DVec3, b: DVec3| if a.dot(point) < b.dot(point) { b } else { a };
+    LATTICE.points.iter().copied().fold(-point, closer)
+}
+
 /// Corners, and faces counter-clockwise seen from outside.
 fn icosahedron() -> ([DVec3; 12], Vec<[usize; 3]>) {
     let golden = 0.5 * (1.0 + 5f64.sqrt());

@@ -1,5 +1,6 @@
 //! Laws that hold for every cap, tested on shapes at many places, and on random ones.
 
+mod hostile;
 mod random;
 mod shapes;
 
@@ -63,6 +64,14 @@ fn reversed(mut points: Vec<DVec3>) -> Vec<DVec3> {
 fn moved(points: &[DVec3], to: DVec3) -> Vec<DVec3> {
     let turn = DQuat::from_rotation_arc(DVec3::X, to);
     points.iter().map(|&p| turn * p).collect()
+}
+
+/// Directions spread evenly over the sphere, none of them a vertex.
+fn directions(count: u32) -> impl Iterator<Item = DVec3> {
+    (0..count).map(move |k| {
+        let sin = 1.0 - (2.0 * f64::from(k) + 1.017) / f64::from(count);
+        polar(sin.acos(), 0.123_4 + f64::from(k) * 2.399_963_229_728_653)
+    })
 }
 
 /// Loops on the unit sphere turned and laid on an ellipsoid, behind other vertices.
@@ -212,6 +221,13 @@ fn for_all(shape: &[Vec<DVec3>], check: impl Fn(Case)) {
     for (turn, ellipsoid) in turns().into_iter().zip(ELLIPSOIDS.into_iter().cycle()) {
         check(Case::new(ellipsoid, turn, shape));
     }
+}
+
+/// As `for_all`, at one place only.
+fn for_one(place: usize, shape: &[Vec<DVec3>], check: impl Fn(Case)) {
+    let turns = turns();
+    let ellipsoid = ELLIPSOIDS[place % ELLIPSOIDS.len()];
+    check(Case::new(ellipsoid, turns[place % turns.len()], shape));
 }
 
 fn area_sr(case: &Case, caps: &Caps) -> f64 {

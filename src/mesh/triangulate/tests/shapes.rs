@@ -8,7 +8,7 @@ use super::*;
 
 #[test]
 fn discs_from_a_metre_to_all_but_a_metre() {
-    for radius_rad in [
+    let radii_rad = [
         1.6e-7,
         1e-5,
         1e-3,
@@ -24,9 +24,11 @@ fn discs_from_a_metre_to_all_but_a_metre() {
         PI - 1e-3,
         PI - 1e-5,
         PI - 1.6e-7,
-    ] {
-        for corners in [3, 4, 17, 300] {
-            for_all(&[circle(radius_rad, corners)], |case| {
+    ];
+    for (row, radius_rad) in radii_rad.into_iter().enumerate() {
+        for (column, corners) in [3, 4, 17, 300].into_iter().enumerate() {
+            // Every radius meets most turns, and every number of corners all.
+            for_one(row + column, &[circle(radius_rad, corners)], |case| {
                 let caps = case.check();
                 let area = area_sr(&case, &caps);
                 // Inscribed polygons lose, and their complements gain, less than this.
@@ -182,7 +184,7 @@ fn horns_that_end_opposite_the_middle() {
             // An edge through the projection point would leave the inside ambiguous.
             let outline = Outline::new(case.ellipsoid, &case.vertices, &case.loops);
             let (centre, radius_rad) = outline.bounding_cap();
-            let pole = -outline.chart(centre, radius_rad).centre();
+            let pole = -outline.chart(centre, radius_rad).0.centre();
             assert!(outline.points.iter().all(|p| p.distance(pole) > 0.3));
         });
     }
@@ -204,6 +206,18 @@ fn a_thousand_holes() {
     for_all(&shape, |case| drop(case.check()));
     // The same without the shell: the globe with a thousand holes.
     for_all(&shape[1..], |case| drop(case.check()));
+}
+
+#[test]
+fn holes_all_over_the_globe() {
+    // No place for the pole is farther than 3° from a hole.
+    let hole = reversed(circle(0.02, 40));
+    let shape: Vec<_> = directions(700).map(|to| moved(&hole, to)).collect();
+    let hole = TAU * (1.0 - 0.02_f64.cos());
+    for_all(&shape, |case| {
+        let share = area_sr(&case, &case.check()) / (4.0 * PI - 700.0 * hole);
+        assert!((share - 1.0).abs() < 0.01, "{share}");
+    });
 }
 
 #[test]
