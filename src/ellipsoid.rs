@@ -41,6 +41,15 @@ impl Ellipsoid {
         }
     }
 
+    /// Whether fills can be meshed and drawn on it: radii up to 6 700 km, flattening up to 1/50.
+    pub(crate) fn is_supported(&self) -> bool {
+        let radii = [self.a_m, self.b_m];
+        radii
+            .iter()
+            .all(|&radius_m| radius_m > 0.0 && radius_m <= 6.7e6)
+            && self.flattening().abs() <= 0.02
+    }
+
     /// Flattening, (a − b)/a.
     pub fn flattening(&self) -> f64 {
         (self.a_m - self.b_m) / self.a_m

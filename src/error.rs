@@ -30,6 +30,15 @@ pub enum RegionError {
         /// The vertex where the edge starts.
         place: Place,
     },
+    /// The ellipsoid's radii are not finite and positive, larger than positions can be encoded for
+    /// (6 700 km), or its flattening is beyond 1/50, up to which the error bounds are proven.
+    #[error("no fills on an ellipsoid with radii of {a_m} m and {b_m} m")]
+    InvalidEllipsoid {
+        /// Equatorial radius, metres.
+        a_m: f64,
+        /// Polar radius, metres.
+        b_m: f64,
+    },
     /// So many edges lie on top of each other that finding their crossings would take unbounded
     /// time and memory.
     #[error("the boundaries are a tangle: too many of their {edges} edges lie across each other")]

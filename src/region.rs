@@ -39,6 +39,9 @@ pub struct Polygon {
 }
 
 /// Polygons that are filled as one, with one style.
+///
+/// Polygons of one region that overlap are drawn one above the other: where they do, a translucent
+/// style is blended twice.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Region {
     /// The parts of the region.

@@ -37,6 +37,8 @@ pub struct Renderer {
     revision: u64,
     /// Layers of the current meshes and styles, once asked for.
     layers: Option<Result<LayerTables, RendererError>>,
+    /// Layers for the stencil, once a frame had no head-room for winding sums.
+    fallback: Option<Result<LayerTables, RendererError>>,
 }
 
 struct Resident {
@@ -67,8 +69,12 @@ impl Renderer {
         if !matches!(options.sample_count, 1 | 4) {
             return Err(RendererError::Unsupported("sample_count must be 1 or 4"));
         }
-        if !options.depth_format.has_depth_aspect() {
-            return Err(RendererError::Unsupported("depth_format has no depth"));
+        if !options.depth_format.has_depth_aspect()
+            || options.depth_format == wgpu::TextureFormat::Depth16Unorm
+        {
+            return Err(RendererError::Unsupported(
+                "depth_format needs a depth of 24 bits or more",
+            ));
         }
         if !options.color_format.has_color_aspect() {
             return Err(RendererError::Unsupported("color_format has no colour"));
@@ -91,6 +97,7 @@ impl Renderer {
             next_id: 0,
             revision: 0,
             layers: None,
+            fallback: None,
         })
     }
 
@@ -154,6 +161,7 @@ impl Renderer {
     fn changed(&mut self) {
         self.revision += 1;
         self.layers = None;
+        self.fallback = None;
     }
 
     /// Selects what to draw and uploads what changed. Call it for every view and frame, before

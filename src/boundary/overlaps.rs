@@ -7,7 +7,7 @@
 //! its loops with it.
 
 use rayon::prelude::*;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::{
     boundary::arcs::EdgeSides,
@@ -16,9 +16,34 @@ use crate::{
     boundary::inside::{Boundary, point_on},
     boundary::meridian_index::MeridianIndex,
     ellipsoid::Ellipsoid,
+    error::RegionError,
 };
 
 type Pair = (u32, u32);
+
+/// Pairs looked at before the input counts as a tangle: a copied polygon meets every other copy at
+/// every edge.
+const MOST_VISITS: usize = 20_000_000;
+
+/// Distinct pairs, and how often pairs were added.
+struct Pairs {
+    found: FxHashSet<Pair>,
+    visits: usize,
+    edges: usize,
+}
+
+impl Pairs {
+    fn add(&mut self, a: u32, b: u32) -> Result<(), RegionError> {
+        self.visits += 1;
+        if self.visits > MOST_VISITS {
+            return Err(RegionError::Tangled { edges: self.edges });
+        }
+        if a != b {
+            self.found.insert(pair(a, b));
+        }
+        Ok(())
+    }
+}
 
 fn pair(a: u32, b: u32) -> Pair {
     (a.min(b), a.max(b))
@@ -31,30 +56,34 @@ pub(crate) fn overlaps(
     sides: &EdgeSides,
     pieces: &[Boundary],
     crossing: Vec<Pair>,
-) -> Vec<Pair> {
-    let mut pairs = crossing;
-    add_same_side(sides, &mut pairs);
-    add_common_sectors(ellipsoid, graph, sides, pieces, &mut pairs);
-    add_contained(ellipsoid, graph, pieces, &mut pairs);
-    pairs.sort_unstable();
-    pairs.dedup();
-    pairs
+) -> Result<Vec<Pair>, RegionError> {
+    let loops = pieces.iter().flat_map(|piece| &piece.loops);
+    let mut pairs = Pairs {
+        found: crossing.into_iter().collect(),
+        visits: 0,
+        edges: loops.map(Vec::len).sum(),
+    };
+    add_same_side(sides, &mut pairs)?;
+    add_common_sectors(ellipsoid, graph, sides, pieces, &mut pairs)?;
+    pairs.found.extend(contained(ellipsoid, graph, pieces));
+    let mut sorted: Vec<Pair> = pairs.found.into_iter().collect();
+    sorted.sort_unstable();
+    Ok(sorted)
 }
 
 /// Pieces on the same side of one edge.
-fn add_same_side(sides: &EdgeSides, pairs: &mut Vec<Pair>) {
+fn add_same_side(sides: &EdgeSides, pairs: &mut Pairs) -> Result<(), RegionError> {
     let mut further = sides.further().to_vec();
     further.sort_unstable_by_key(|(edge, piece)| (edge.index(), *piece));
     for run in further.chunk_by(|a, b| a.0 == b.0) {
         for (index, &(edge, piece)) in run.iter().enumerate() {
             let others = run[..index].iter().map(|(_, other)| *other);
-            let all = sides.left_of(edge).into_iter().chain(others);
-            pairs.extend(
-                all.filter(|&other| other != piece)
-                    .map(|other| pair(other, piece)),
-            );
+            for other in sides.left_of(edge).into_iter().chain(others) {
+                pairs.add(other, piece)?;
+            }
         }
     }
+    Ok(())
 }
 
 /// Pieces that have a sector in common at a node where three or more edges meet. (Where two meet,
@@ -64,8 +93,8 @@ fn add_common_sectors(
     graph: &BoundaryGraph,
     sides: &EdgeSides,
     pieces: &[Boundary],
-    pairs: &mut Vec<Pair>,
-) {
+    pairs: &mut Pairs,
+) -> Result<(), RegionError> {
     let mut stars: FxHashMap<u32, Vec<DirectedEdge>> = FxHashMap::default();
     for &edge in pieces.iter().flat_map(|piece| piece.loops.iter().flatten()) {
         for outgoing in [edge, edge.reversed()] {
@@ -96,27 +125,20 @@ fn add_common_sectors(
                 }
             }
             for begun in left_of(*edge) {
-                pairs.extend(
-                    present
-                        .iter()
-                        .filter(|&&other| other != begun)
-                        .map(|&other| pair(other, begun)),
-                );
+                for &other in &present {
+                    pairs.add(other, begun)?;
+                }
                 if !present.contains(&begun) {
                     present.push(begun);
                 }
             }
         }
     }
+    Ok(())
 }
 
 /// Pieces that contain a vertex of a loop of another.
-fn add_contained(
-    ellipsoid: &Ellipsoid,
-    graph: &BoundaryGraph,
-    pieces: &[Boundary],
-    pairs: &mut Vec<Pair>,
-) {
+fn contained(ellipsoid: &Ellipsoid, graph: &BoundaryGraph, pieces: &[Boundary]) -> Vec<Pair> {
     let labelled = pieces.iter().enumerate().flat_map(|(piece, boundary)| {
         boundary
             .loops
@@ -132,7 +154,7 @@ fn add_contained(
     let polar: Vec<u32> = (0..pieces.len() as u32)
         .filter(|&piece| has_pole(piece))
         .collect();
-    let found: Vec<Pair> = pieces
+    pieces
         .par_iter()
         .enumerate()
         .flat_map_iter(|(own, boundary)| {
@@ -154,6 +176,5 @@ fn add_contained(
                     .collect::<Vec<_>>()
             })
         })
-        .collect();
-    pairs.extend(found);
+        .collect()
 }

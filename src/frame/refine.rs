@@ -339,6 +339,21 @@ mod tests {
         Sight::new(mesh.ellipsoid, 1_000.0, &frame, &RendererOptions::default()).expect("valid")
     }
 
+    /// However narrow the field of view, refining ends where vertices are rounded.
+    #[test]
+    fn a_telescope_does_not_refine_without_end() {
+        let mesh = one_edge(
+            EdgeKind::Straight,
+            LonLat::new(10.0, 47.0),
+            LonLat::new(11.2, 47.3),
+        );
+        let mut sight = looking_down(&mesh, 100.0, HeightRange::default());
+        sight.pixel_rad = 1e-9;
+        let mut patch = Patch::default();
+        patch.refine_arc(&mesh, 0, &sight);
+        assert!(patch.vertices.len() < 200_000, "{}", patch.vertices.len());
+    }
+
     /// A corner by what it is: the stored vertex and how it is drawn.
     type Corner = (FixedVertex, u32);
 

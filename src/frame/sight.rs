@@ -1,6 +1,6 @@
 //! What a frame's camera sees, in f64: everything the selection needs, derived once a frame.
 
-use glam::{DMat4, DVec3, DVec4, Vec4Swizzles as _};
+use glam::{DMat4, DVec2, DVec3, DVec4, Vec4Swizzles as _};
 
 use crate::{
     ellipsoid::Ellipsoid,
@@ -12,6 +12,8 @@ use crate::{
 /// Smallest displacement, pixels, that refinement works towards: half the 1/32 px of rounding that
 /// rasterisation and single precision leave.
 const FINEST_PIXEL_ERROR: f64 = 1.0 / 64.0;
+/// Displacement, metres, below which refining is in vain: vertices are rounded to 3.8 µm an axis.
+const FINEST_TOLERANCE_M: f64 = 4e-6;
 /// Slack, metres, for rounding of a host that draws its surface in single precision.
 const SLACK_M: f64 = 0.25;
 /// Depth steps of a host by which its surface may lie off.
@@ -65,7 +67,7 @@ pub(crate) struct Sight {
     pub far_plane: bool,
     /// Nothing nearer than this is drawn, metres.
     pub near_m: f64,
-    /// Angle a pixel spans in the middle of the picture, radians.
+    /// Angle a pixel spans in the middle of the picture, radians; the smaller of the two axes'.
     pub pixel_rad: f64,
     /// How far, pixels, a drawn boundary may lie beside the true one.
     pub pixel_error: f64,
@@ -93,7 +95,7 @@ impl Sight {
         let (x_row, y_row, w_row) = (rows.x_axis.xyz(), rows.y_axis.xyz(), rows.w_axis.xyz());
         let side_planes = [w_row + x_row, w_row - x_row, w_row + y_row, w_row - y_row];
         let depth = DepthRange::of(projection, options.depth)?;
-        let pixel_rad = 2.0 / (projection.y_axis.y.abs() * f64::from(frame.size_px.y));
+        let pixels_rad = pixel_angles_rad(projection, frame)?;
         let eye_height_m = ellipsoid.geodetic(camera.eye_ecef_m).1;
         Ok(Self {
             ellipsoid,
@@ -103,13 +105,13 @@ impl Sight {
             mirrored: x_row.cross(y_row).dot(w_row) > 0.0,
             far_plane: depth.far_plane,
             near_m: depth.near_m,
-            pixel_rad,
+            pixel_rad: pixels_rad.min_element(),
             pixel_error: frame.pixel_error.max(FINEST_PIXEL_ERROR),
             surface_m: (frame.terrain.min_m, frame.terrain.max_m),
             extrusion: Extrusion {
                 top_m: frame.terrain.max_m + sag_m,
                 bottom_m: frame.terrain.min_m,
-                push_per_m: pixel_rad * frame.host_pixel_error,
+                push_per_m: pixels_rad.max_element() * frame.host_pixel_error,
                 limit_m: ellipsoid.b_m / 20.0,
                 slack: depth.slack(options),
             },
@@ -141,7 +143,10 @@ impl Sight {
         let highest = 1.0 + (self.surface_m.1.max(0.0) + SLACK_M) / shortest_m;
         let horizon_rad = (occluder / eye_distance).acos() + (occluder / highest).min(1.0).acos();
         let apart_rad = eye.angle_between(bounds.axis) - bounds.radius_rad;
-        apart_rad > horizon_rad + 1e-6
+        // Bounds hold foot points: divided by the radii, the normal that a point stands on leaves the
+        // radial direction by up to twice the flattening.
+        let leaning_rad = 2.0 * self.ellipsoid.flattening().abs() * (highest - 1.0);
+        apart_rad > horizon_rad + leaning_rad + 1e-6
     }
 
     fn lowest_surface_m(&self) -> f64 {
@@ -191,7 +196,19 @@ impl Sight {
 
     /// Displacement, metres at distance `distance_m`, that the pixel budget allows.
     pub(crate) fn tolerance_m(&self, distance_m: f64) -> f64 {
-        self.pixel_error * self.pixel_rad * distance_m
+        (self.pixel_error * self.pixel_rad * distance_m).max(FINEST_TOLERANCE_M)
+    }
+}
+
+/// Angles, radians, that a pixel spans across and down in the middle of the picture.
+fn pixel_angles_rad(projection: DMat4, frame: &Frame) -> Result<DVec2, RendererError> {
+    let rows = projection.transpose();
+    let scales = DVec2::new(rows.x_axis.xy().length(), rows.y_axis.xy().length());
+    let angles_rad = 2.0 / (scales * frame.size_px.as_dvec2());
+    if angles_rad.is_finite() {
+        Ok(angles_rad)
+    } else {
+        Err(RendererError::InvalidFrame("camera.clip_from_view"))
     }
 }
 
@@ -238,9 +255,11 @@ impl DepthRange {
     /// Reads a perspective projection; z/w = A + B/w with w the distance along the view axis.
     fn of(projection: DMat4, convention: DepthConvention) -> Result<Self, RendererError> {
         let rows = projection.transpose();
-        if rows.w_axis != DVec4::new(0.0, 0.0, -1.0, 0.0) {
+        let oblique = rows.z_axis.xy() != DVec2::ZERO;
+        let offset = rows.x_axis.w != 0.0 || rows.y_axis.w != 0.0;
+        if rows.w_axis != DVec4::new(0.0, 0.0, -1.0, 0.0) || oblique || offset {
             return Err(RendererError::Unsupported(
-                "camera.clip_from_view must be a perspective looking along -z (w = -z)",
+                "camera.clip_from_view must be a perspective along -z (w = -z), not an oblique one",
             ));
         }
         let constant = -rows.z_axis.z;

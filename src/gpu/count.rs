@@ -350,8 +350,11 @@ impl Recorder<'_> {
     }
 }
 
-/// The depth aspect of the texture that `view` shows: stencils cannot be bound beside it.
+/// The view to bind as a texture: a stencil cannot be bound beside the depth.
 fn depth_only(view: &wgpu::TextureView) -> wgpu::TextureView {
+    if !view.texture().format().has_stencil_aspect() {
+        return view.clone();
+    }
     view.texture().create_view(&wgpu::TextureViewDescriptor {
         aspect: wgpu::TextureAspect::DepthOnly,
         ..Default::default()

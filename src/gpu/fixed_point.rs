@@ -16,7 +16,8 @@ const EYE_LIMIT_M: f64 = 1e7;
 /// A vertex as the GPU stores it: x, y, z in 1/128 m and the three fractions, x in the lowest bits.
 pub(crate) type FixedVertex = [i32; 4];
 
-/// Encodes an ECEF position, metres, within ±1.6·10⁷ m an axis.
+/// Encodes an ECEF position, metres. Within ±6.77·10⁶ m an axis its difference to any clamped eye fits
+/// 31 bits.
 pub(crate) fn encode(ecef_m: DVec3) -> FixedVertex {
     let [x, y, z] = ecef_m.to_array().map(split);
     [

@@ -30,6 +30,12 @@ pub(crate) fn build(regions: &[Region], options: &MeshOptions) -> Result<FillMes
         ellipsoid,
         ..FillMesh::default()
     };
+    if !ellipsoid.is_supported() {
+        return Err(RegionError::InvalidEllipsoid {
+            a_m: ellipsoid.a_m,
+            b_m: ellipsoid.b_m,
+        });
+    }
     let mut graph = BoundaryGraph::with_capacity(count_vertices(regions));
     let mut polygons = walk_polygons(regions, &ellipsoid, &mut graph, &mut mesh.repairs)?;
     let crossing = node_boundaries(&ellipsoid, &mut graph, &mut polygons, &mut mesh.repairs)?;
@@ -56,7 +62,7 @@ pub(crate) fn build(regions: &[Region], options: &MeshOptions) -> Result<FillMes
             mesh.add_caps(&graph, &pieces, &vertex_runs);
         },
     );
-    mesh.overlaps = overlaps;
+    mesh.overlaps = overlaps?;
     Ok(mesh)
 }
 

@@ -5,7 +5,7 @@ use crate::{
     error::RendererError,
     frame::code::PlaneSums,
     frame::layers::Styled,
-    frame::select::Selection,
+    frame::select::{LayerDraws, Selection},
     frame::sight::Sight,
     frame::volumes::volumes,
     frame_stats::FrameStats,
@@ -32,8 +32,12 @@ impl Renderer {
             prepared.stats.upload_bytes = 0;
             return Ok(prepared.stats);
         }
-        let (table_bytes, selections) = self.layers_and_selections(frame)?;
-        let layers = self.layers()?;
+        let size_limit = self.device.limits().max_texture_dimension_2d;
+        if frame.size_px.max_element() > size_limit {
+            return Err(RendererError::InvalidFrame("size_px"));
+        }
+        let (choice, table_bytes, selections) = self.choose_layers(frame)?;
+        let layers = self.layers(choice)?;
         let sight = selections.first().map(|selected| &selected.sight);
         let mut prepared = Prepared {
             frame: *frame,
@@ -46,34 +50,40 @@ impl Renderer {
         if prepared.unclipped {
             require(self.device.features(), FAR_PLANE_FEATURES)?;
         }
-        self.ensure_targets(view, frame)?;
-        self.ensure_pipelines(&prepared, &selections)?;
+        self.ensure_targets(view, frame, choice)?;
+        self.ensure_pipelines(&prepared, &selections, choice)?;
         prepared.stats.upload_bytes = table_bytes + self.upload(queue, view, selections);
         self.fill_stats(view, &mut prepared);
         view.prepared = Some(prepared);
         Ok(prepared.stats)
     }
 
-    /// Layers of the current styles and what the frame shows of them. Falls back to the stencil where
-    /// refined walls leave no head-room for winding sums. The number is of bytes uploaded.
-    fn layers_and_selections(
+    /// The layers that this frame is counted in, the bytes uploaded for them, and what the frame shows:
+    /// the stencil's layers where refined walls leave no head-room for winding sums.
+    fn choose_layers(
         &mut self,
         frame: &Frame,
-    ) -> Result<(u64, Vec<Selected>), RendererError> {
+    ) -> Result<(Choice, u64, Vec<Selected>), RendererError> {
         let mut bytes = 0;
         if self.layers.is_none() {
-            bytes += self.assign_layers(self.options.count);
+            let tables = self.make_layers(self.options.count);
+            bytes += tables.as_ref().map_or(0, |tables| tables.bytes);
+            self.layers = Some(tables);
         }
-        let selections = self.select(frame)?;
+        let selections = self.select(frame, Choice::Wanted)?;
         if self.has_head_room(&selections)? {
-            return Ok((bytes, selections));
+            return Ok((Choice::Wanted, bytes, selections));
         }
-        bytes += self.assign_layers(CountTechnique::Stencil);
-        Ok((bytes, self.select(frame)?))
+        if self.fallback.is_none() {
+            let tables = self.make_layers(CountTechnique::Stencil);
+            bytes += tables.as_ref().map_or(0, |tables| tables.bytes);
+            self.fallback = Some(tables);
+        }
+        let selections = self.select(frame, Choice::Fallback)?;
+        Ok((Choice::Fallback, bytes, selections))
     }
 
-    /// Makes the layers and their tables; returns the bytes uploaded.
-    fn assign_layers(&mut self, technique: CountTechnique) -> u64 {
+    fn make_layers(&self, technique: CountTechnique) -> Result<LayerTables, RendererError> {
         let styled: Vec<Styled<'_>> = self
             .meshes
             .values()
@@ -82,15 +92,12 @@ impl Renderer {
                 styles: &resident.styles,
             })
             .collect();
-        let tables = LayerTables::new(&self.device, &styled, technique, self.mantissa);
-        let bytes = tables.as_ref().map_or(0, |tables| tables.bytes);
-        self.layers = Some(tables);
-        bytes
+        LayerTables::new(&self.device, &styled, technique, self.mantissa)
     }
 
     /// Whether the sums of this frame, refined walls included, are proven exact.
     fn has_head_room(&self, selections: &[Selected]) -> Result<bool, RendererError> {
-        let layers = self.layers()?;
+        let layers = self.layers(Choice::Wanted)?;
         let refined: Vec<PlaneSums> = (0..layers.layering.layers.len())
             .map(|layer| {
                 let mut sums = PlaneSums::default();
@@ -104,16 +111,20 @@ impl Renderer {
         Ok(layers.leave_room_for(&refined))
     }
 
-    fn layers(&self) -> Result<&LayerTables, RendererError> {
-        match &self.layers {
+    fn layers(&self, choice: Choice) -> Result<&LayerTables, RendererError> {
+        let layers = match choice {
+            Choice::Wanted => &self.layers,
+            Choice::Fallback => &self.fallback,
+        };
+        match layers {
             Some(Ok(layers)) => Ok(layers),
             Some(Err(error)) => Err(error.clone()),
             None => Err(RendererError::NoSuchMesh),
         }
     }
 
-    fn select(&self, frame: &Frame) -> Result<Vec<Selected>, RendererError> {
-        let layering = &self.layers()?.layering;
+    fn select(&self, frame: &Frame, choice: Choice) -> Result<Vec<Selected>, RendererError> {
+        let layering = &self.layers(choice)?.layering;
         let layer_count = layering.layers.len();
         self.meshes
             .iter()
@@ -130,8 +141,13 @@ impl Renderer {
             .collect()
     }
 
-    fn ensure_targets(&self, view: &mut View, frame: &Frame) -> Result<(), RendererError> {
-        let layers = self.layers()?;
+    fn ensure_targets(
+        &self,
+        view: &mut View,
+        frame: &Frame,
+        choice: Choice,
+    ) -> Result<(), RendererError> {
+        let layers = self.layers(choice)?;
         let key = TargetsKey {
             size_px: frame.size_px,
             planes: layers.planes(),
@@ -154,32 +170,23 @@ impl Renderer {
         &mut self,
         prepared: &Prepared,
         selections: &[Selected],
+        choice: Choice,
     ) -> Result<(), RendererError> {
-        let planes = self.layers()?.planes();
-        let draws = |index: usize| {
-            let layer = move |selected: &Selected| selected.selection.layers[index].clone();
-            selections.iter().map(layer)
-        };
+        let planes = self.layers(choice)?.planes();
         for (index, planes) in planes.into_iter().enumerate() {
-            let mut inputs = Vec::new();
-            for (input, used) in [
-                (
-                    Input::Caps,
-                    draws(index).any(|draws| !draws.caps.is_empty()),
-                ),
-                (
-                    Input::Walls,
-                    draws(index).any(|draws| !draws.walls.is_empty()),
-                ),
-                (
-                    Input::Patches,
-                    draws(index).any(|draws| !draws.patches.is_empty()),
-                ),
-            ] {
-                if used {
-                    inputs.push(input);
-                }
-            }
+            let uses = |has: fn(&LayerDraws) -> bool| {
+                selections
+                    .iter()
+                    .any(|selected| has(&selected.selection.layers[index]))
+            };
+            let inputs: Vec<Input> = [
+                (Input::Caps, uses(|draws| !draws.caps.is_empty())),
+                (Input::Walls, uses(|draws| !draws.walls.is_empty())),
+                (Input::Patches, uses(|draws| !draws.patches.is_empty())),
+            ]
+            .into_iter()
+            .filter_map(|(input, used)| used.then_some(input))
+            .collect();
             let keys = count::keys(prepared.technique, planes, prepared.unclipped, &inputs);
             for key in keys.into_iter().chain([Key::Resolve]) {
                 self.pipelines.ensure(&self.device, key);
@@ -250,6 +257,15 @@ impl Renderer {
             stats.passes += 1;
         }
     }
+}
+
+/// Which layers a frame is counted in.
+#[derive(Clone, Copy)]
+enum Choice {
+    /// Those of the technique asked for.
+    Wanted,
+    /// Those of the stencil.
+    Fallback,
 }
 
 /// What a frame shows of one mesh.

@@ -1,7 +1,8 @@
 //! Shapes that break others: poles, the antimeridian, holes, crossings, and what is refused.
 
 use globefill::{
-    EdgeKind, FillMesh, Inside, LonLat, MeshOptions, Region, RepairKind, countries::Dataset,
+    EdgeKind, Ellipsoid, FillMesh, Inside, LonLat, MeshOptions, Region, RepairKind,
+    countries::Dataset,
 };
 
 use crate::law::{KINDS, build, fill_area_m2, kinds, region, smaller};
@@ -338,4 +339,47 @@ fn errors_name_the_place() {
     }
     let empty = FillMesh::build(&[Region::default()], &MeshOptions::default()).unwrap();
     assert_eq!((empty.fills.len(), empty.pieces.len()), (1, 0));
+}
+
+#[test]
+fn ellipsoids_that_positions_cannot_be_encoded_for_are_refused() {
+    let square = smaller(
+        EdgeKind::Geodesic,
+        &[&[(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]],
+    );
+    for (a_m, b_m) in [
+        (f64::NAN, 6e6),
+        (6e6, 0.0),
+        (-6e6, -6e6),
+        (7e7, 7e7),
+        (6e6, 5e6),
+    ] {
+        let options = MeshOptions {
+            ellipsoid: Ellipsoid { a_m, b_m },
+            ..MeshOptions::default()
+        };
+        let refused = FillMesh::build(std::slice::from_ref(&square), &options);
+        assert!(matches!(
+            refused,
+            Err(globefill::RegionError::InvalidEllipsoid { .. })
+        ));
+    }
+}
+
+/// A file of one polygon many times over has quadratically many overlaps at every edge.
+#[test]
+fn copies_of_one_polygon_are_refused_before_they_exhaust_memory() {
+    let ring: Vec<(f64, f64)> = (0..300)
+        .map(|k| {
+            let (sin, cos) = (f64::from(k) * 1.2).to_radians().sin_cos();
+            (10.0 + 3.0 * cos, 45.0 + 2.0 * sin)
+        })
+        .collect();
+    let copies = vec![smaller(EdgeKind::Straight, &[&ring]); 600];
+    let refused = FillMesh::build(&copies, &MeshOptions::default());
+    assert!(matches!(
+        refused,
+        Err(globefill::RegionError::Tangled { .. })
+    ));
+    assert!(FillMesh::build(&copies[..5], &MeshOptions::default()).is_ok());
 }
