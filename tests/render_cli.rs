@@ -265,3 +265,23 @@ fn nowhere_to_write() {
     );
     assert!(workplace.files().is_empty());
 }
+
+/// Below the terrain and looking down nothing is in sight: a picture of nothing, not a failure.
+#[test]
+fn a_camera_below_the_terrain_sees_nothing() {
+    let workplace = Workplace::new("below");
+    let root = env!("CARGO_MANIFEST_DIR");
+    let terrain = format!("{root}/assets/demo/terrain-himalaya.png");
+    let run = workplace.render(&[
+        "--terrain",
+        &terrain,
+        "--camera",
+        "87,30,1000",
+        "--size",
+        "32x32",
+        "--mask",
+        "m.png",
+    ]);
+    let said = String::from_utf8_lossy(&run.stderr).into_owned();
+    assert!(run.status.success(), "{said}");
+}

@@ -106,6 +106,10 @@ impl Terrain {
     }
 
     pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
+        // Below ground, or looking away from it, nothing is in sight, and empty buffers have no slice.
+        if self.draws.is_empty() {
+            return;
+        }
         pass.set_bind_group(1, &self.group, &[]);
         pass.set_vertex_buffer(0, self.vertices.slice(..));
         pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint16);
