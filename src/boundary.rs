@@ -13,4 +13,3 @@ pub(crate) mod noding;
 pub(crate) mod overlaps;
 pub(crate) mod rings;
 pub(crate) mod simple_loops;
-pub(crate) mod vertex_runs;

@@ -4,3 +4,4 @@ pub(crate) mod bounds;
 pub(crate) mod densify;
 pub(crate) mod mesh_build;
 pub(crate) mod triangulate;
+pub(crate) mod vertex_runs;
