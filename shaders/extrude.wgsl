@@ -20,6 +20,8 @@ struct Frame {
     // Added above and below for the host's depth steps: x + y * distance + z * distance^2, m.
     // w: distance of the near plane, m.
     slack: vec4<f32>,
+    // Depth before the division by w: x * w + y.
+    depth: vec4<f32>,
 }
 
 // How a vertex is drawn.
@@ -74,7 +76,10 @@ fn extruded_m(vertex: vec4<i32>, drawn: u32) -> vec3<f32> {
 }
 
 fn clip(vertex: vec4<i32>, drawn: u32) -> vec4<f32> {
-    return frame.clip_from_relative * vec4<f32>(extruded_m(vertex, drawn), 1.0);
+    var position = frame.clip_from_relative * vec4<f32>(extruded_m(vertex, drawn), 1.0);
+    // Far away z and w differ by little: from w alone, depth is rounded once instead of three times.
+    position.z = frame.depth.x * position.w + frame.depth.y;
+    return position;
 }
 
 fn code_digits(piece_plus_one: u32) -> vec4<f32> {

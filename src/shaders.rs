@@ -92,7 +92,7 @@ mod tests {
         let (members, size) = layout_of(&super::count(false), "Frame");
         let expected = offsets!(
             FrameUniform: clip_from_relative, eye, eye_fraction, eye_remainder, normal_scale,
-            heights, slack
+            heights, slack, depth
         );
         assert_eq!(members, expected);
         assert_eq!(size, size_of::<FrameUniform>());

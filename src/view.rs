@@ -179,6 +179,7 @@ pub(crate) struct FrameUniform {
     pub normal_scale: [f32; 4],
     pub heights: [f32; 4],
     pub slack: [f32; 4],
+    pub depth: [f32; 4],
 }
 
 impl FrameUniform {
@@ -204,6 +205,7 @@ impl FrameUniform {
             normal_scale: [1.0, 1.0, (ratio * ratio) as f32, 0.0],
             heights: heights.map(|height| height as f32),
             slack: [constant, linear, quadratic, sight.near_m as f32],
+            depth: [sight.depth[0] as f32, sight.depth[1] as f32, 0.0, 0.0],
         }
     }
 }

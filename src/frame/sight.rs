@@ -65,6 +65,8 @@ pub(crate) struct Sight {
     pub mirrored: bool,
     /// Whether depth ends at a far plane.
     pub far_plane: bool,
+    /// Depth of a point at distance w along the view axis is `depth[0]` + `depth[1]`/w.
+    pub depth: [f64; 2],
     /// Nothing nearer than this is drawn, metres.
     pub near_m: f64,
     /// Angle a pixel spans in the middle of the picture, radians; the smaller of the two axes'.
@@ -104,6 +106,7 @@ impl Sight {
             clip_from_relative,
             mirrored: x_row.cross(y_row).dot(w_row) > 0.0,
             far_plane: depth.far_plane,
+            depth: depth.coefficients,
             near_m: depth.near_m,
             pixel_rad: pixels_rad.min_element(),
             pixel_error: frame.pixel_error.max(FINEST_PIXEL_ERROR),
@@ -247,6 +250,8 @@ fn validate(frame: &Frame) -> Result<(), RendererError> {
 
 /// How the host's depth depends on distance.
 struct DepthRange {
+    /// z/w = first + second/w.
+    coefficients: [f64; 2],
     near_m: f64,
     far_plane: bool,
 }
@@ -273,6 +278,7 @@ impl DepthRange {
             return Err(RendererError::InvalidFrame("camera.clip_from_view"));
         }
         Ok(Self {
+            coefficients: [constant, inverse_m],
             near_m,
             far_plane: (constant - far_depth).abs() > 1e-12,
         })
