@@ -102,7 +102,7 @@ impl CurveOn {
 #[cfg(test)]
 mod tests {
     use glam::DVec3;
-    use proptest::prelude::*;
+    use proptest::{prelude::*, test_runner::RngSeed};
 
     use super::*;
     use crate::{ellipsoid::Ellipsoid, geodetic::LonLat, region::EdgeKind};
@@ -150,7 +150,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(ProptestConfig { cases: 3000, failure_persistence: None, ..ProptestConfig::default() })]
+        #![proptest_config(ProptestConfig { cases: 3000, failure_persistence: None, rng_seed: RngSeed::Fixed(1), ..ProptestConfig::default() })]
 
         #[test]
         fn deviation_stays_below_its_bound(
