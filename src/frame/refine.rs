@@ -22,8 +22,8 @@ const REACH: f64 = 150.0;
 const MAX_HALVINGS: u32 = 32;
 
 /// How an index of a patch draws its vertex; the same in extrude.wgsl.
-const BOTTOM: u32 = 0;
-const TOP: u32 = 1;
+pub(crate) const BOTTOM: u32 = 0;
+pub(crate) const TOP: u32 = 1;
 const AS_IS: u32 = 2;
 
 /// Triangles that replace the walls of refined chords of one mesh.

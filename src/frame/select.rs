@@ -70,8 +70,8 @@ impl Selection {
             .map(|arc| !sight.outside_side_plane(&arc.bounds))
             .collect();
         for (index, arc) in mesh.arcs.iter().enumerate() {
-            let code_of = |side: Option<u32>| side.and_then(|piece| shown[piece as usize]);
-            if arc_seen[index] && code_of(arc.left) != code_of(arc.right) {
+            let shown_on = |side: Option<u32>| side.and_then(|piece| shown[piece as usize]);
+            if arc_seen[index] && shown_on(arc.left) != shown_on(arc.right) {
                 selection.patch.refine_arc(mesh, index as u32, sight);
             }
         }
@@ -223,13 +223,10 @@ mod tests {
         frame::{
             code::Mantissa,
             layers::{Layering, Styled},
+            refine::{BOTTOM, TOP},
         },
         options::{Camera, Frame, HeightRange, RendererOptions},
     };
-
-    /// Drawn at the top, at the bottom, or as it is; the same in extrude.wgsl.
-    const BOTTOM: u32 = 0;
-    const TOP: u32 = 1;
 
     fn mesh() -> FillMesh {
         let countries = Dataset::Countries110m.countries();
@@ -318,12 +315,11 @@ mod tests {
             let ends = arc.first_vertex..arc.first_vertex + arc.vertex_count - 1;
             for vertex in ends {
                 let slots = slot(index, vertex)..slot(index, vertex + 1) + 1;
-                let drawn = draws
-                    .walls
-                    .iter()
-                    .any(|run| run.start <= slots.start && slots.end <= run.end);
-                if drawn {
-                    wall(arc, vertex);
+                // A wall drawn twice would count twice.
+                for run in &draws.walls {
+                    if run.start <= slots.start && slots.end <= run.end {
+                        wall(arc, vertex);
+                    }
                 }
             }
         }
