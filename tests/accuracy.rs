@@ -271,6 +271,8 @@ fn countries_from_everywhere(dataset: Dataset, size_px: UVec2) {
     for lat_deg in [90.0, -90.0] {
         gate.check(&subject, Pose::nadir(0.0, lat_deg, 1e7), Terrain::Bare);
     }
+    // From the Moon.
+    gate.check(&subject, Pose::nadir(20.0, 10.0, 4e8), Terrain::Bare);
     let germany = Pose::nadir(10.4, 51.1, 9e5);
     let horizon = Pose::nadir(8.0, 47.0, 5e4).turned(20.0, -5.0);
     for terrain in [Terrain::Bare, PLATEAU, Terrain::Rough] {
