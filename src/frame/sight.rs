@@ -181,7 +181,9 @@ impl Sight {
     }
 
     /// Lower bound, metres, of the distance from the eye to visible surface at a wall that stands on
-    /// the surface points `a` and `b` (ECEF metres).
+    /// the surface points `a` and `b` (ECEF metres). To first order in distance over radius: a far
+    /// column's nearest point lies below the eye's height, which makes it nearer by less than a part in
+    /// (distance / 2R)².
     pub(crate) fn distance_to_wall_m(&self, a: DVec3, b: DVec3) -> f64 {
         let height_m = self.nearest_surface_height_m();
         let a = a + self.ellipsoid.normal_at_surface(a) * height_m - self.eye_ecef_m;
