@@ -48,6 +48,36 @@ pub enum RegionError {
     },
 }
 
+/// Why a sensor cannot be.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SensorError {
+    /// The apex is NaN, infinite, or farther than 10¹⁰ m.
+    #[error("the sensor's apex is not a position")]
+    Apex,
+    /// The apex does not lie above the ellipsoid.
+    #[error("the sensor's apex lies on or below the ellipsoid")]
+    ApexBelowSurface,
+    /// The boresight is no direction.
+    #[error("the sensor's boresight is not a direction")]
+    Boresight,
+    /// The up vector is no direction, or is along the boresight.
+    #[error("the sensor's up vector does not fix its turn about the boresight")]
+    Up,
+    /// An angle of a field of view, radians, is out of its range.
+    #[error("a field of view cannot have the angle {0} rad")]
+    HalfAngle(f64),
+    /// A field of view has too few or too many corners.
+    #[error("a field of view cannot have {0} corners")]
+    Corners(usize),
+    /// A corner of a field of view, by its index, is no direction or makes it not convex.
+    #[error("corner {0} is not a direction, or the field of view is not convex there")]
+    Corner(usize),
+    /// The least elevation, radians, is NaN or beyond ±π/2.
+    #[error("{0} rad is not an elevation")]
+    MinElevation(f64),
+}
+
 /// Why a renderer could not be made or a frame not prepared.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]

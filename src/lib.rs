@@ -67,6 +67,7 @@ pub mod countries;
 pub mod curve;
 pub mod ellipsoid;
 pub mod error;
+pub mod field_of_view;
 pub mod fill_mesh;
 pub mod frame_stats;
 #[cfg(feature = "geojson")]
@@ -76,6 +77,7 @@ pub mod options;
 pub mod region;
 pub mod renderer;
 pub mod repair;
+pub mod sensor;
 #[doc(hidden)]
 pub mod shaders;
 pub mod view;
@@ -90,7 +92,8 @@ pub use {glam, wgpu};
 pub use crate::{
     curve::{Curve, CurveOn},
     ellipsoid::Ellipsoid,
-    error::{RegionError, RendererError},
+    error::{RegionError, RendererError, SensorError},
+    field_of_view::FieldOfView,
     fill_mesh::{FillMesh, MeshOptions},
     frame_stats::FrameStats,
     geodetic::LonLat,
@@ -100,5 +103,6 @@ pub use crate::{
     region::{EdgeKind, Inside, Polygon, Region, Ring},
     renderer::{MeshId, Renderer},
     repair::{Place, Repair, RepairKind},
+    sensor::{Extrusion, Pose, Sensor},
     view::View,
 };
