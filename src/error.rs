@@ -76,6 +76,15 @@ pub enum SensorError {
     /// The least elevation, radians, is NaN or beyond ±π/2.
     #[error("{0} rad is not an elevation")]
     MinElevation(f64),
+    /// A part of a colour is not within 0 … 1.
+    #[error("{0:?} is not a colour")]
+    Color([f32; 4]),
+    /// Too few or too many colours.
+    #[error("a coverage cannot have {0} colours")]
+    Colors(usize),
+    /// The identifier was not given out by this set, or its sensor was removed.
+    #[error("no such sensor in this set")]
+    NoSuchSensor,
 }
 
 /// Why a renderer could not be made or a frame not prepared.
@@ -116,6 +125,17 @@ pub enum RendererError {
         /// Layers there are.
         most: usize,
     },
+    /// More sensors than the device's buffers can hold.
+    #[error("{sensors} sensors are more than the {most} that this device has room for")]
+    TooManySensors {
+        /// Sensors in the set.
+        sensors: usize,
+        /// Sensors there is room for.
+        most: usize,
+    },
+    /// The pixel lies outside the frame that was prepared, or none was.
+    #[error("there is no pixel {0} in this view")]
+    NoSuchPixel(glam::UVec2),
     /// More fills in one layer than codes.
     #[error("{fills} fills in one layer are more than its codes can tell apart")]
     TooManyFills {

@@ -2,7 +2,11 @@
 
 pub(crate) mod code;
 pub(crate) mod layers;
+pub(crate) mod reference;
 pub(crate) mod refine;
 pub(crate) mod select;
+pub(crate) mod sensor_record;
+pub(crate) mod sensor_records;
 pub(crate) mod sight;
+pub(crate) mod sight_uniform;
 pub(crate) mod volumes;

@@ -23,6 +23,10 @@ pub struct FrameStats {
     pub vertices: u64,
     /// Boundary chords replaced by finer ones for this view.
     pub refined_chords: u32,
+    /// Visible sensors.
+    pub sensors: u32,
+    /// Compute dispatches that `count` records: one if there are visible sensors.
+    pub dispatches: u32,
     /// Bytes written to GPU buffers since the previous frame of this view.
     pub upload_bytes: u64,
     /// Bytes of GPU buffers that hold meshes (not the view's targets).

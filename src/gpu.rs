@@ -7,5 +7,7 @@ pub(crate) mod gpu_mesh;
 pub(crate) mod layer_tables;
 pub(crate) mod pipelines;
 pub(crate) mod planes;
+pub(crate) mod sensor_pipelines;
+pub(crate) mod sensor_view;
 pub(crate) mod stream_buffer;
 pub(crate) mod targets;

@@ -39,7 +39,7 @@
 //! let mut view = View::default();
 //!
 //! renderer.prepare(queue, &mut view, &Frame::new(camera, size_px))?;
-//! renderer.count(&view, encoder, depth_view);
+//! renderer.count(&mut view, encoder, depth_view);
 //! let mut pass = encoder.begin_render_pass(&globefill::wgpu::RenderPassDescriptor {
 //!     color_attachments: &[Some(color_attachment)],
 //!     ..Default::default()
@@ -64,6 +64,7 @@
 
 #[cfg(feature = "countries")]
 pub mod countries;
+pub mod coverage;
 pub mod curve;
 pub mod ellipsoid;
 pub mod error;
@@ -78,6 +79,7 @@ pub mod region;
 pub mod renderer;
 pub mod repair;
 pub mod sensor;
+pub mod sensor_set;
 #[doc(hidden)]
 pub mod shaders;
 pub mod view;
@@ -90,6 +92,7 @@ mod mesh;
 pub use {glam, wgpu};
 
 pub use crate::{
+    coverage::CoverageColors,
     curve::{Curve, CurveOn},
     ellipsoid::Ellipsoid,
     error::{RegionError, RendererError, SensorError},
@@ -104,5 +107,6 @@ pub use crate::{
     renderer::{MeshId, Renderer},
     repair::{Place, Repair, RepairKind},
     sensor::{Extrusion, Pose, Sensor},
+    sensor_set::{SensorDisplay, SensorId, SensorSet, SensorStyle},
     view::View,
 };

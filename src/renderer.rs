@@ -1,6 +1,7 @@
 //! The façade: what a host calls.
 
 mod prepare;
+mod sensors;
 
 use std::collections::BTreeMap;
 
@@ -13,7 +14,9 @@ use crate::{
     gpu::gpu_mesh::GpuMesh,
     gpu::layer_tables::{LayerTables, require},
     gpu::pipelines::{FAR_PLANE_FEATURES, Key, Pipelines},
+    gpu::sensor_pipelines::SensorPipelines,
     options::{CountTechnique, FillStyle, Frame, RendererOptions},
+    sensor_set::SensorSet,
     view::View,
 };
 
@@ -39,6 +42,9 @@ pub struct Renderer {
     layers: Option<Result<LayerTables, RendererError>>,
     /// Layers for the stencil, once a frame had no head-room for winding sums.
     fallback: Option<Result<LayerTables, RendererError>>,
+    sensors: SensorSet,
+    /// Made when a frame first has sensors.
+    sensor_pipelines: Option<SensorPipelines>,
 }
 
 struct Resident {
@@ -98,6 +104,8 @@ impl Renderer {
             revision: 0,
             layers: None,
             fallback: None,
+            sensors: SensorSet::default(),
+            sensor_pipelines: None,
         })
     }
 
@@ -164,6 +172,17 @@ impl Renderer {
         self.fallback = None;
     }
 
+    /// The sensors whose footprints are drawn.
+    pub fn sensors(&self) -> &SensorSet {
+        &self.sensors
+    }
+
+    /// The sensors, to change them; on another ellipsoid than WGS84 after
+    /// `*renderer.sensors_mut() = SensorSet::new(ellipsoid)`.
+    pub fn sensors_mut(&mut self) -> &mut SensorSet {
+        &mut self.sensors
+    }
+
     /// Selects what to draw and uploads what changed. Call it for every view and frame, before
     /// `count`. A frame equal to the view's last one costs nothing and uploads nothing.
     ///
@@ -176,16 +195,19 @@ impl Renderer {
         view: &mut View,
         frame: &Frame,
     ) -> Result<FrameStats, RendererError> {
-        self.prepare_view(queue, view, frame)
+        let mut stats = self.prepare_fills(queue, view, frame)?;
+        self.prepare_sensors(queue, view, frame, &mut stats)?;
+        Ok(stats)
     }
 
     /// Records the counting passes: after the host's depth is final, outside any pass.
     ///
     /// `depth` is a view of the depth texture the frame was prepared for. It is attached read-only;
-    /// the stencil technique binds it as a texture instead, which needs `TEXTURE_BINDING`.
+    /// the stencil technique and sensors bind it as a texture instead, which needs `TEXTURE_BINDING`.
+    /// Sensors read it once more in [`resolve`](Self::resolve).
     pub fn count(
         &self,
-        view: &View,
+        view: &mut View,
         encoder: &mut wgpu::CommandEncoder,
         depth: &wgpu::TextureView,
     ) {
@@ -197,7 +219,7 @@ impl Renderer {
     /// `PIPELINE_STATISTICS_QUERY`.
     pub fn count_measured(
         &self,
-        view: &View,
+        view: &mut View,
         encoder: &mut wgpu::CommandEncoder,
         depth: &wgpu::TextureView,
         queries: &wgpu::QuerySet,
@@ -207,11 +229,12 @@ impl Renderer {
 
     fn record_count(
         &self,
-        view: &View,
+        view: &mut View,
         encoder: &mut wgpu::CommandEncoder,
         depth: &wgpu::TextureView,
         statistics: Option<&wgpu::QuerySet>,
     ) {
+        self.bin_sensors(view, encoder, depth);
         let (Some(prepared), Some(targets)) = (view.prepared, &view.targets) else {
             return;
         };
@@ -236,19 +259,19 @@ impl Renderer {
         recorder.record(encoder, depth);
     }
 
-    /// Records the fills into the host's pass, which has the colour target, the options' sample
-    /// count and no depth attachment. Colours are premultiplied and blended over what is there.
+    /// Records the fills, then the sensors, into the host's pass, which has the colour target, the
+    /// options' sample count and no depth attachment. Colours are premultiplied and blended over what
+    /// is there.
     pub fn resolve(&self, view: &View, pass: &mut wgpu::RenderPass<'_>) {
-        let Some(targets) = &view.targets else {
-            return;
-        };
-        if targets.layers.is_empty() {
-            return;
+        if let Some(targets) = &view.targets
+            && !targets.layers.is_empty()
+        {
+            pass.set_pipeline(self.pipelines.get(Key::Resolve));
+            for layer in &targets.layers {
+                pass.set_bind_group(0, &layer.resolve_group, &[]);
+                pass.draw(0..3, 0..1);
+            }
         }
-        pass.set_pipeline(self.pipelines.get(Key::Resolve));
-        for layer in &targets.layers {
-            pass.set_bind_group(0, &layer.resolve_group, &[]);
-            pass.draw(0..3, 0..1);
-        }
+        self.resolve_sensors(view, pass);
     }
 }

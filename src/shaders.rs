@@ -10,6 +10,16 @@ const COPY_DEPTH_MULTISAMPLED: &str = include_str!("../shaders/copy_depth_multis
 const PLANES_PACKED: &str = include_str!("../shaders/planes_packed.wgsl");
 const PLANES_SEPARATE: &str = include_str!("../shaders/planes_separate.wgsl");
 const RESOLVE: &str = include_str!("../shaders/resolve.wgsl");
+const SURFACE: &str = include_str!("../shaders/surface.wgsl");
+const SENSOR: &str = include_str!("../shaders/sensor.wgsl");
+const DEPTH: &str = include_str!("../shaders/depth.wgsl");
+const DEPTH_MULTISAMPLED: &str = include_str!("../shaders/depth_multisampled.wgsl");
+const TILE: &str = include_str!("../shaders/tile.wgsl");
+const TILES_READ: &str = include_str!("../shaders/tiles_read.wgsl");
+const TILES_WRITE: &str = include_str!("../shaders/tiles_write.wgsl");
+const BIN_SENSORS: &str = include_str!("../shaders/bin_sensors.wgsl");
+const COUNT_SENSORS: &str = include_str!("../shaders/count_sensors.wgsl");
+const RESOLVE_SENSORS: &str = include_str!("../shaders/resolve_sensors.wgsl");
 
 /// Extrusion and counting; `unclipped` where depth has a far plane.
 pub fn count(unclipped: bool) -> String {
@@ -40,6 +50,31 @@ pub fn resolve(sample_count: u32) -> String {
     [SCREEN, planes, RESOLVE].concat()
 }
 
+fn depth(sample_count: u32) -> &'static str {
+    if sample_count > 1 {
+        DEPTH_MULTISAMPLED
+    } else {
+        DEPTH
+    }
+}
+
+/// Which sensors cover which tiles.
+pub fn bin_sensors(sample_count: u32) -> String {
+    let depth = depth(sample_count);
+    [SURFACE, SENSOR, depth, TILE, TILES_WRITE, BIN_SENSORS].concat()
+}
+
+/// How many sensors cover one pixel.
+pub fn count_sensors(sample_count: u32) -> String {
+    [SURFACE, SENSOR, depth(sample_count), COUNT_SENSORS].concat()
+}
+
+/// The colour of the sensors that cover each pixel.
+pub fn resolve_sensors(sample_count: u32) -> String {
+    let depth = depth(sample_count);
+    [SURFACE, SENSOR, depth, TILE, TILES_READ, RESOLVE_SENSORS].concat()
+}
+
 /// Every program with its name, for validation without a GPU.
 pub fn all() -> Vec<(&'static str, String)> {
     vec![
@@ -49,6 +84,12 @@ pub fn all() -> Vec<(&'static str, String)> {
         ("copy_depth_multisampled", copy_depth(4)),
         ("resolve", resolve(1)),
         ("resolve_multisampled", resolve(4)),
+        ("bin_sensors", bin_sensors(1)),
+        ("bin_sensors_multisampled", bin_sensors(4)),
+        ("count_sensors", count_sensors(1)),
+        ("count_sensors_multisampled", count_sensors(4)),
+        ("resolve_sensors", resolve_sensors(1)),
+        ("resolve_sensors_multisampled", resolve_sensors(4)),
     ]
 }
 
@@ -56,7 +97,10 @@ pub fn all() -> Vec<(&'static str, String)> {
 mod tests {
     use std::mem::{offset_of, size_of};
 
-    use crate::{gpu::gpu_mesh::ArcRecord, gpu::layer_tables::LayerHead, view::FrameUniform};
+    use crate::{
+        frame::sensor_record::SensorRecord, frame::sight_uniform::SightUniform,
+        gpu::gpu_mesh::ArcRecord, gpu::layer_tables::LayerHead, view::FrameUniform,
+    };
 
     /// Members of a WGSL struct with their offsets, bytes, and the size of the whole.
     fn layout_of(source: &str, name: &str) -> (Vec<(String, usize)>, usize) {
@@ -103,6 +147,27 @@ mod tests {
         let (members, size) = layout_of(&super::count(false), "Arc");
         assert_eq!(members, offsets!(ArcRecord: left, right, break_slot));
         assert_eq!(size, size_of::<ArcRecord>());
+    }
+
+    #[test]
+    fn the_sensor_record_has_the_layout_of_the_shader() {
+        let (members, size) = layout_of(&super::bin_sensors(1), "Sensor");
+        let expected = offsets!(
+            SensorRecord: axis, across, cone, limb, line, rise, weight, planes
+        );
+        assert_eq!(members, expected);
+        assert_eq!(size, size_of::<SensorRecord>());
+    }
+
+    #[test]
+    fn the_sight_uniform_has_the_layout_of_the_shader() {
+        let (members, size) = layout_of(&super::bin_sensors(1), "Sight");
+        let expected = offsets!(
+            SightUniform: ray, right, down, depth, ellipsoid, eye_gradient, foot_gradient, size,
+            counts, weight
+        );
+        assert_eq!(members, expected);
+        assert_eq!(size, size_of::<SightUniform>());
     }
 
     #[test]

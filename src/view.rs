@@ -10,6 +10,7 @@ use crate::{
     gpu::fixed_point::FixedEye,
     gpu::gpu_mesh::GpuMesh,
     gpu::pipelines::Pipelines,
+    gpu::sensor_view::SensorView,
     gpu::stream_buffer::StreamBuffer,
     gpu::targets::Targets,
     options::{CountTechnique, Frame},
@@ -22,6 +23,8 @@ use crate::{
 pub struct View {
     pub(crate) targets: Option<Targets>,
     pub(crate) meshes: HashMap<MeshId, MeshView>,
+    /// Only while there are sensors.
+    pub(crate) sensors: Option<SensorView>,
     /// What the last `prepare` was given, and its answer.
     pub(crate) prepared: Option<Prepared>,
 }

@@ -40,7 +40,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     host.draw_globe(&mut encoder);
     let stats = renderer.prepare(&host.queue, &mut view, &frame)?;
     // After the depth is final, outside your passes:
-    renderer.count(&view, &mut encoder, &host.depth_view);
+    renderer.count(&mut view, &mut encoder, &host.depth_view);
     // In your own pass, which no longer has the depth attached:
     renderer.resolve(&view, &mut host.color_pass(&mut encoder));
     println!("{stats:?}");

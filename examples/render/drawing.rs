@@ -94,9 +94,9 @@ impl Drawing {
         match queries {
             Some(queries) => {
                 self.renderer
-                    .count_measured(&self.view, &mut encoder, depth, &queries.set);
+                    .count_measured(&mut self.view, &mut encoder, depth, &queries.set);
             }
-            None => self.renderer.count(&self.view, &mut encoder, depth),
+            None => self.renderer.count(&mut self.view, &mut encoder, depth),
         }
         {
             let load = match self.background {

@@ -351,7 +351,7 @@ impl Recorder<'_> {
 }
 
 /// The view to bind as a texture: a stencil cannot be bound beside the depth.
-fn depth_only(view: &wgpu::TextureView) -> wgpu::TextureView {
+pub(crate) fn depth_only(view: &wgpu::TextureView) -> wgpu::TextureView {
     if !view.texture().format().has_stencil_aspect() {
         return view.clone();
     }

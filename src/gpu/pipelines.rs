@@ -365,7 +365,7 @@ fn shader(device: &wgpu::Device, label: &str, source: String) -> wgpu::ShaderMod
     })
 }
 
-fn layout(
+pub(crate) fn layout(
     device: &wgpu::Device,
     label: &str,
     visibility: wgpu::ShaderStages,

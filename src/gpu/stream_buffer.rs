@@ -1,5 +1,7 @@
 //! A GPU buffer that is rewritten from time to time, and only where its contents changed.
 
+use std::ops::Range;
+
 /// A buffer that grows as needed and knows what it holds.
 pub(crate) struct StreamBuffer {
     label: &'static str,
@@ -34,14 +36,39 @@ impl StreamBuffer {
         let replaced = bytes.len() as u64 > self.buffer.size();
         if replaced {
             self.buffer = allocate(device, self.label, self.usage, bytes.len() as u64);
-        } else if self.contents.starts_with(bytes) {
-            return (0, false);
+            self.contents.clear();
         }
-        queue.write_buffer(&self.buffer, 0, bytes);
-        self.contents.clear();
-        self.contents.extend_from_slice(bytes);
-        (bytes.len() as u64, replaced)
+        let mut uploaded = 0;
+        for run in changed_runs(&self.contents, bytes) {
+            queue.write_buffer(&self.buffer, run.start as u64, &bytes[run.clone()]);
+            uploaded += run.len() as u64;
+        }
+        let kept = bytes.len().min(self.contents.len());
+        self.contents[..kept].copy_from_slice(&bytes[..kept]);
+        self.contents.extend_from_slice(&bytes[kept..]);
+        (uploaded, replaced)
     }
+}
+
+/// Bytes compared at a time.
+const BLOCK: usize = 128;
+/// Runs nearer than this are written as one: a write costs about as much as copying so many bytes.
+const JOINED: usize = 512;
+
+/// Where `new` differs from what `old` holds there.
+fn changed_runs(old: &[u8], new: &[u8]) -> Vec<Range<usize>> {
+    let mut runs: Vec<Range<usize>> = Vec::new();
+    for start in (0..new.len()).step_by(BLOCK) {
+        let block = start..(start + BLOCK).min(new.len());
+        if old.get(block.clone()) == Some(&new[block.clone()]) {
+            continue;
+        }
+        match runs.last_mut() {
+            Some(run) if start - run.end < JOINED => run.end = block.end,
+            _ => runs.push(block),
+        }
+    }
+    runs
 }
 
 fn allocate(
@@ -56,4 +83,27 @@ fn allocate(
         usage,
         mapped_at_creation: false,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_what_changed_is_written() {
+        let old = vec![0; 100 * BLOCK];
+        assert!(changed_runs(&old, &old).is_empty());
+        assert!(changed_runs(&old, &old[..BLOCK]).is_empty());
+        let mut new = old.clone();
+        new[3] = 1;
+        new[2 * BLOCK] = 1;
+        new[90 * BLOCK + 5] = 1;
+        let runs = [0..3 * BLOCK, 90 * BLOCK..91 * BLOCK];
+        assert_eq!(changed_runs(&old, &new), runs);
+        new.extend([7; 8]);
+        assert_eq!(
+            changed_runs(&old, &new).last(),
+            Some(&(90 * BLOCK..100 * BLOCK + 8))
+        );
+    }
 }

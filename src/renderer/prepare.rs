@@ -18,8 +18,8 @@ use crate::{
 };
 
 impl Renderer {
-    /// What [`Renderer::prepare`] promises.
-    pub(super) fn prepare_view(
+    /// What [`Renderer::prepare`] promises of the fills.
+    pub(super) fn prepare_fills(
         &mut self,
         queue: &wgpu::Queue,
         view: &mut View,

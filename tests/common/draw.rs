@@ -11,7 +11,7 @@ use super::{
     surface::Surface,
 };
 
-const COLOR: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+pub const COLOR: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
 /// A renderer whose fills are painted with their number.
 pub struct IdPainter {
@@ -62,48 +62,74 @@ impl IdPainter {
         surface: &Surface,
         pixel_error: f64,
     ) -> Picture {
-        let (_, depth) = depth_texture(gpu, surface, self.options.depth_format);
-        let (min_m, max_m) = surface.terrain.range_m();
-        let frame = Frame {
-            camera: surface.lens.camera(),
-            size_px: surface.size_px(),
-            terrain: HeightRange { min_m, max_m },
+        let painted = paint(
+            gpu,
+            &mut self.renderer,
+            &self.options,
+            view,
+            surface,
             pixel_error,
-            host_pixel_error: 0.0,
-        };
-        let stats = self
-            .renderer
-            .prepare(&gpu.queue, view, &frame)
-            .expect("the frame can be drawn");
-        let target = color_texture(gpu, surface, 1);
-        let target_view = target.create_view(&Default::default());
-        let multisampled = (surface.samples() > 1).then(|| {
-            color_texture(gpu, surface, surface.samples()).create_view(&Default::default())
-        });
-        let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        self.renderer.count(view, &mut encoder, &depth);
-        {
-            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                label: Some("host colour"),
-                color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                    view: multisampled.as_ref().unwrap_or(&target_view),
-                    depth_slice: None,
-                    resolve_target: multisampled.is_some().then_some(&target_view),
-                    ops: wgpu::Operations {
-                        load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
-                        store: wgpu::StoreOp::Store,
-                    },
-                })],
-                ..Default::default()
-            });
-            self.renderer.resolve(view, &mut pass);
+        );
+        Picture {
+            ids: painted.texels.into_iter().map(id_of_color).collect(),
+            stats: painted.stats,
         }
-        gpu.queue.submit([encoder.finish()]);
-        let ids = read_texture(gpu, &target, wgpu::TextureAspect::All)
-            .into_iter()
-            .map(id_of_color)
-            .collect();
-        Picture { ids, stats }
+    }
+}
+
+/// What a renderer left in the host's colour target.
+pub struct Painted {
+    pub texels: Vec<[u8; 4]>,
+    pub stats: FrameStats,
+}
+
+/// One frame of a host that shows nothing but what the renderer draws.
+pub fn paint(
+    gpu: &Gpu,
+    renderer: &mut Renderer,
+    options: &RendererOptions,
+    view: &mut View,
+    surface: &Surface,
+    pixel_error: f64,
+) -> Painted {
+    let (_, depth) = depth_texture(gpu, surface, options.depth_format);
+    let (min_m, max_m) = surface.terrain.range_m();
+    let frame = Frame {
+        camera: surface.lens.camera(),
+        size_px: surface.size_px(),
+        terrain: HeightRange { min_m, max_m },
+        pixel_error,
+        host_pixel_error: 0.0,
+    };
+    let stats = renderer
+        .prepare(&gpu.queue, view, &frame)
+        .expect("the frame can be drawn");
+    let target = color_texture(gpu, surface, 1);
+    let target_view = target.create_view(&Default::default());
+    let multisampled = (surface.samples() > 1)
+        .then(|| color_texture(gpu, surface, surface.samples()).create_view(&Default::default()));
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    renderer.count(view, &mut encoder, &depth);
+    {
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("host colour"),
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view: multisampled.as_ref().unwrap_or(&target_view),
+                depth_slice: None,
+                resolve_target: multisampled.is_some().then_some(&target_view),
+                ops: wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+                    store: wgpu::StoreOp::Store,
+                },
+            })],
+            ..Default::default()
+        });
+        renderer.resolve(view, &mut pass);
+    }
+    gpu.queue.submit([encoder.finish()]);
+    Painted {
+        texels: read_texture(gpu, &target, wgpu::TextureAspect::All),
+        stats,
     }
 }
 
@@ -126,12 +152,12 @@ fn color_texture(gpu: &Gpu, surface: &Surface, sample_count: u32) -> wgpu::Textu
 }
 
 /// An opaque colour for an id below 65 536: the low byte in red, the high one in green.
-fn id_color(id: u32) -> [f32; 4] {
+pub fn id_color(id: u32) -> [f32; 4] {
     let part = |byte: u32| (byte & 255) as f32 / 255.0;
     [part(id), part(id >> 8), 0.0, 1.0]
 }
 
-fn id_of_color([red, green, blue, alpha]: [u8; 4]) -> u32 {
+pub fn id_of_color([red, green, blue, alpha]: [u8; 4]) -> u32 {
     match (blue, alpha) {
         (0, 255) => u32::from(red) + 256 * u32::from(green),
         (0, 0) if red == 0 && green == 0 => 0,

@@ -11,3 +11,5 @@ pub mod pair_mesh;
 pub mod scene;
 pub mod score;
 pub mod surface;
+pub mod watch;
+pub mod watcher;

@@ -179,6 +179,7 @@ impl Cast {
 
 /// The host's depth buffer, and the surface points that it holds.
 pub struct Surface {
+    figure: Figure,
     pub lens: Lens,
     pub range: DepthRange,
     pub terrain: Terrain,
@@ -231,12 +232,17 @@ impl Surface {
             })
             .collect();
         Self {
+            figure: cast.figure,
             lens,
             range,
             terrain: cast.terrain,
             depths,
             points_m,
         }
+    }
+
+    pub fn figure(&self) -> &Figure {
+        &self.figure
     }
 
     pub fn size_px(&self) -> UVec2 {

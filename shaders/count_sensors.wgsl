@@ -1,0 +1,25 @@
+// Reading back: how many sensors cover the surface at one pixel.
+
+struct Answer {
+    pixel: vec2<u32>,
+    // Written here: the number of sensors, and whether the pixel shows the surface.
+    covering: u32,
+    surface: u32,
+}
+
+@group(1) @binding(0) var<storage, read_write> answer: Answer;
+
+@compute @workgroup_size(1)
+fn cs_count() {
+    let depth = depth_at(answer.pixel, 0u);
+    var covering = 0u;
+    if !is_sky(depth) {
+        let ray = ray_at(vec2<f32>(answer.pixel) + sample_px(0u));
+        let place = place_of(ray * distance_of(depth), 0.0);
+        for (var sensor = 0u; sensor < sight.counts.x; sensor += 1u) {
+            covering += select(0u, 1u, covers(sensor, place));
+        }
+    }
+    answer.covering = covering;
+    answer.surface = select(1u, 0u, is_sky(depth));
+}

@@ -1,0 +1,90 @@
+// Resolving sensors: the sums of all that cover the surface at a pixel become a colour. Sums are of
+// integers, so their order does not matter.
+
+// Premultiplied colours by the number of sensors, the last for more.
+@group(0) @binding(3) var<storage, read> coverage_colors: array<vec4<f32>>;
+
+struct Sums {
+    weight: vec4<u32>,
+    covering: u32,
+}
+
+struct TileVertex {
+    @builtin(position) position: vec4<f32>,
+    @location(0) @interpolate(flat) tile: u32,
+}
+
+// A rectangle a tile; none for tiles where nothing is to be drawn.
+@vertex
+fn vs_tile(
+    @builtin(vertex_index) vertex: u32,
+    @builtin(instance_index) index: u32,
+) -> TileVertex {
+    let gaps = sight.counts.w != 0u;
+    let drawn = tiles[index].surface != 0u
+        && (gaps || tiles[index].covering + tiles[index].partly > 0u);
+    let corner = vec2<u32>(index % sight.size.z, index / sight.size.z)
+        + vec2<u32>(vertex & 1u, vertex >> 1u);
+    let at_px = vec2<f32>(min(TILE * corner, sight.size.xy));
+    let clip = at_px / vec2<f32>(sight.size.xy) * vec2<f32>(2.0, -2.0) + vec2<f32>(-1.0, 1.0);
+    var out: TileVertex;
+    out.position = vec4<f32>(select(vec2<f32>(-2.0), clip, drawn), 0.0, 1.0);
+    out.tile = index;
+    return out;
+}
+
+fn sums_at(pixel: vec2<u32>, sample: u32, index: u32) -> Sums {
+    let depth = depth_at(pixel, sample);
+    if is_sky(depth) {
+        discard;
+    }
+    var sums = Sums(tiles[index].weight, tiles[index].covering);
+    let unlisted = tiles[index].partly == UNLISTED;
+    let count = select(tiles[index].partly, sight.counts.x, unlisted);
+    if count > 0u {
+        let ray = ray_at(vec2<f32>(pixel) + sample_px(sample));
+        let place = place_of(ray * distance_of(depth), 0.0);
+        for (var k = 0u; k < count; k += 1u) {
+            var sensor = k;
+            if !unlisted {
+                sensor = lists[index * sight.counts.y + k];
+            }
+            if covers(sensor, place) {
+                sums.weight += sensors[sensor].weight;
+                sums.covering += 1u;
+            }
+        }
+    }
+    return sums;
+}
+
+// Translucent footprints, each absorbing like a filter: colours weighted by optical depth.
+fn blended(sums: Sums) -> vec4<f32> {
+    let depth = f32(sums.weight.w);
+    let alpha = 1.0 - exp(-depth * sight.weight.x);
+    return vec4<f32>(vec3<f32>(sums.weight.xyz) / max(depth, 1.0) * alpha, alpha);
+}
+
+fn coverage(sums: Sums) -> vec4<f32> {
+    return coverage_colors[min(sums.covering, sight.counts.z - 1u)];
+}
+
+@fragment
+fn fs_blended(in: TileVertex) -> @location(0) vec4<f32> {
+    return blended(sums_at(vec2<u32>(in.position.xy), 0u, in.tile));
+}
+
+@fragment
+fn fs_coverage(in: TileVertex) -> @location(0) vec4<f32> {
+    return coverage(sums_at(vec2<u32>(in.position.xy), 0u, in.tile));
+}
+
+@fragment
+fn fs_blended_sample(in: TileVertex, @builtin(sample_index) sample: u32) -> @location(0) vec4<f32> {
+    return blended(sums_at(vec2<u32>(in.position.xy), sample, in.tile));
+}
+
+@fragment
+fn fs_coverage_sample(in: TileVertex, @builtin(sample_index) sample: u32) -> @location(0) vec4<f32> {
+    return coverage(sums_at(vec2<u32>(in.position.xy), sample, in.tile));
+}

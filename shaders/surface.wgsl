@@ -1,0 +1,113 @@
+// From the depth at a pixel to the surface point and its foot point on the ellipsoid. Everything is a
+// difference from the eye or from the eye's foot point, formed without cancellation, so that errors
+// are about 1e-7 of the distance to the eye: a ten-thousandth of a pixel.
+
+// Metres along ECEF axes.
+struct Sight {
+    // Ray at unit distance along the view axis through the middle of the picture, and its change per
+    // pixel to the right and down.
+    ray: vec4<f32>,
+    right: vec4<f32>,
+    down: vec4<f32>,
+    // Depth d lies at distance y / ((d - z) - x) along the view axis; w is the depth of the sky.
+    depth: vec4<f32>,
+    // x: equatorial radius a; y: (a/b)^2; z: tau of the eye, see place_of; w: polar radius b.
+    ellipsoid: vec4<f32>,
+    // The eye times (1, 1, (a/b)^2) * 2 / a; w: its outside (see place_of).
+    eye_gradient: vec4<f32>,
+    // The eye's foot point times (1, 1, (a/b)^2).
+    foot_gradient: vec4<f32>,
+    // Width, height, tiles in a row, tiles.
+    size: vec4<u32>,
+    // Sensors, most entries in a tile's list, colours of the coverage, whether gaps are coloured.
+    counts: vec4<u32>,
+    // x: optical depth of one unit of weight.
+    weight: vec4<f32>,
+}
+
+@group(0) @binding(0) var<uniform> sight: Sight;
+
+// A surface point.
+struct Place {
+    // From the eye.
+    from_eye: vec3<f32>,
+    // Its foot point, from the eye's foot point.
+    from_foot: vec3<f32>,
+    // Height above the ellipsoid, and its difference from the eye's.
+    height: f32,
+    above_eye: f32,
+    // |foot point * (1, 1, (a/b)^2)| / a, and its difference from the eye's.
+    stretch: f32,
+    stretched: f32,
+    // Bounds of sqrt(outside), less the eye's; see place_of.
+    over: vec2<f32>,
+}
+
+fn ray_at(at_px: vec2<f32>) -> vec3<f32> {
+    let from_middle = at_px - 0.5 * vec2<f32>(sight.size.xy);
+    return sight.ray.xyz + from_middle.x * sight.right.xyz + from_middle.y * sight.down.xyz;
+}
+
+fn is_sky(depth: f32) -> bool {
+    return depth == sight.depth.w;
+}
+
+// Distance along the view axis.
+fn distance_of(depth: f32) -> f32 {
+    return sight.depth.y / ((depth - sight.depth.z) - sight.depth.x);
+}
+
+// The surface point `from_eye`, known to `radius`.
+//
+// With M = diag(1, 1, (a/b)^2), a point P = (1 + tau M) F stands on its foot point F, at the height
+// tau |M F|. Subtracting the same for the eye E and its foot point G gives
+// (1 + tau M)(F - G) = (P - E) - (tau - tau_eye) M G: Newton's method on tau, until F lies on the
+// ellipsoid, has no large numbers to cancel. "Outside" is P M P / a - a, twice the height near by.
+fn place_of(from_eye: vec3<f32>, radius: f32) -> Place {
+    let a = sight.ellipsoid.x;
+    let m = vec3<f32>(1.0, 1.0, sight.ellipsoid.y);
+    let tau_eye = sight.ellipsoid.z;
+    let outside_eye = sight.eye_gradient.w;
+    let farther = dot(from_eye, sight.eye_gradient.xyz) + dot(from_eye, m * from_eye) / a;
+    let outside = outside_eye + farther;
+    let relative = max(outside / a, -0.9);
+    // Exact on a sphere; the flattening leaves a thousandth of the height to Newton's method, which
+    // squares the error at each step.
+    var more = relative / (1.0 + sqrt(1.0 + relative)) - tau_eye;
+    var from_foot: vec3<f32>;
+    var normal: vec3<f32>;
+    for (var step = 0; step < 3; step += 1) {
+        let shrink = 1.0 / (1.0 + (tau_eye + more) * m);
+        from_foot = shrink * (from_eye - more * sight.foot_gradient.xyz);
+        normal = sight.foot_gradient.xyz + m * from_foot;
+        // Twice the dot product with the mean of both gradients: P M P - G M G.
+        let off = dot(from_foot, sight.foot_gradient.xyz + normal);
+        more += select(0.0, 0.5 * off / dot(normal, shrink * normal), step < 2);
+    }
+    var place: Place;
+    place.from_eye = from_eye;
+    place.from_foot = from_foot;
+    let stretch_eye = length(sight.foot_gradient.xyz) / a;
+    place.stretch = length(normal) / a;
+    place.stretched = dot(m * from_foot, normal + sight.foot_gradient.xyz)
+        / (a * a * (place.stretch + stretch_eye));
+    place.height = (tau_eye + more) * a * place.stretch;
+    place.above_eye = a * (tau_eye * place.stretched + more * place.stretch);
+    let spread = radius * (2.1 + (2.1 * length(from_eye) + 1.1 * radius) / a);
+    // Rounding must not lift a point on the ellipsoid over the limb.
+    let noise = 5e-7 * length(from_eye);
+    place.over = vec2<f32>(root_over(farther - spread, noise), root_over(farther + spread, noise));
+    return place;
+}
+
+// sqrt(outside), less the eye's, where outside is `farther` more than the eye's.
+fn root_over(farther: f32, noise: f32) -> f32 {
+    let outside_eye = sight.eye_gradient.w;
+    let root_eye = sqrt(max(outside_eye, 0.0));
+    let outside = outside_eye + farther;
+    if outside <= noise {
+        return -root_eye;
+    }
+    let root = sqrt(outside);
+    return select(root, farther / (root + root_eye), outside_eye > 0.0);
+}

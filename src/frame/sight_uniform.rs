@@ -1,0 +1,78 @@
+//! The camera as surface.wgsl reads it.
+
+use glam::{DMat3, DVec3, UVec2, Vec4Swizzles as _};
+
+use crate::{frame::reference::Reference, frame::sight::Sight, options::DepthConvention};
+
+/// Pixels across a tile; as in tile.wgsl.
+pub(crate) const TILE: u32 = 16;
+
+/// `Sight` of surface.wgsl; see there.
+#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+#[repr(C)]
+pub(crate) struct SightUniform {
+    pub ray: [f32; 4],
+    pub right: [f32; 4],
+    pub down: [f32; 4],
+    pub depth: [f32; 4],
+    pub ellipsoid: [f32; 4],
+    pub eye_gradient: [f32; 4],
+    pub foot_gradient: [f32; 4],
+    pub size: [u32; 4],
+    pub counts: [u32; 4],
+    pub weight: [f32; 4],
+}
+
+impl SightUniform {
+    pub(crate) fn new(
+        sight: &Sight,
+        reference: &Reference,
+        convention: DepthConvention,
+        size_px: UVec2,
+    ) -> Self {
+        let rows = sight.clip_from_relative.transpose();
+        let relative_from_clip =
+            DMat3::from_cols(rows.x_axis.xyz(), rows.y_axis.xyz(), rows.w_axis.xyz())
+                .transpose()
+                .inverse();
+        let size = size_px.as_dvec2();
+        let [constant, inverse_m] = sight.depth;
+        let sky = match convention {
+            DepthConvention::Reversed => 0.0,
+            DepthConvention::Standard => 1.0,
+        };
+        let ellipsoid = &reference.ellipsoid;
+        let ratio = ellipsoid.a_m / ellipsoid.b_m;
+        let eye_gradient = reference.scaled(reference.eye_ecef_m) * (2.0 / ellipsoid.a_m);
+        let foot_gradient = reference.scaled(reference.foot_ecef_m);
+        let tiles = tiles(size_px);
+        Self {
+            ray: padded(relative_from_clip.z_axis, 0.0),
+            right: padded(relative_from_clip.x_axis * (2.0 / size.x), 0.0),
+            down: padded(relative_from_clip.y_axis * (-2.0 / size.y), 0.0),
+            depth: [
+                constant - constant.round(),
+                inverse_m,
+                constant.round(),
+                sky,
+            ]
+            .map(|part| part as f32),
+            ellipsoid: [ellipsoid.a_m, ratio * ratio, reference.tau, ellipsoid.b_m]
+                .map(|part| part as f32),
+            eye_gradient: padded(eye_gradient, reference.outside_m),
+            foot_gradient: padded(foot_gradient, 0.0),
+            size: [size_px.x, size_px.y, tiles.x, tiles.element_product()],
+            counts: [0; 4],
+            weight: [0.0; 4],
+        }
+    }
+}
+
+/// Tiles across and down.
+pub(crate) fn tiles(size_px: UVec2) -> UVec2 {
+    UVec2::new(size_px.x.div_ceil(TILE), size_px.y.div_ceil(TILE))
+}
+
+fn padded(vector: DVec3, last: f64) -> [f32; 4] {
+    vector.extend(last).as_vec4().to_array()
+}
