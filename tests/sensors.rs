@@ -85,10 +85,7 @@ fn subjects() -> Vec<(String, Watcher, LonLat)> {
                 ),
             };
             let watcher = Watcher::new(at, height_m, 0.1 * scale, 1.0, optics);
-            let outside = LonLat::new(
-                at.lon_deg + 30.0_f64.min(height_m / 1e4),
-                at.lat_deg + 5.0_f64.min(height_m / 1e4),
-            );
+            let outside = LonLat::new(at.lon_deg + 90_f64.min(height_m / 1e4), at.lat_deg);
             subjects.push((format!("{kind} from {height_m:.0} m"), watcher, outside));
         }
     }

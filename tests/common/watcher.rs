@@ -88,7 +88,7 @@ impl Watcher {
         };
         let line_m = target_m - self.pose.apex_ecef_m;
         let up = self.figure.normal(foot);
-        let elevation_rad = (-line_m.dot(up) / line_m.length()).asin();
+        let elevation_rad = (-line_m.dot(up) / line_m.length()).clamp(-1.0, 1.0).asin();
         let clear = match self.extrusion {
             Extrusion::Normal => elevation_rad >= 0.0,
             // What the host's depth holds of the bare ellipsoid counts as on it.
@@ -161,7 +161,7 @@ impl Watcher {
         };
         assert!(
             covered(0.0) && !covered(1.0),
-            "the edge does not lie between"
+            "no edge between {inside:?} and {outside:?}: {self:?}"
         );
         let (mut low, mut high) = (0.0, 1.0);
         for _ in 0..60 {
