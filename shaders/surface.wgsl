@@ -27,6 +27,9 @@ struct Sight {
 
 @group(0) @binding(0) var<uniform> sight: Sight;
 
+// Below this the eye's outside and its differences are of the size of the distances seen.
+const NEAR_M: f32 = 2e5;
+
 // A surface point.
 struct Place {
     // From the eye.
@@ -93,21 +96,31 @@ fn place_of(from_eye: vec3<f32>, radius: f32) -> Place {
         / (a * a * (place.stretch + stretch_eye));
     place.height = (tau_eye + more) * a * place.stretch;
     place.above_eye = a * (tau_eye * place.stretched + more * place.stretch);
-    let spread = radius * (2.1 + (2.1 * length(from_eye) + 1.1 * radius) / a);
-    // Rounding must not lift a point on the ellipsoid over the limb.
-    let noise = 5e-7 * length(from_eye);
-    place.over = vec2<f32>(root_over(farther - spread, noise), root_over(farther + spread, noise));
+    // Rounding must not lift a point on the ellipsoid over the limb; this much it does not reach.
+    let far = length(from_eye);
+    let level = place.height - min(1e-6 * far, 0.02 + 3e-7 * far);
+    let spread = radius * (2.1 + (2.1 * far + 1.1 * radius) / a);
+    place.over = vec2<f32>(
+        root_over(place, normal, level - 1.05 * radius, farther - spread),
+        root_over(place, normal, level + 1.05 * radius, farther + spread),
+    );
     return place;
 }
 
-// sqrt(outside), less the eye's, where outside is `farther` more than the eye's.
-fn root_over(farther: f32, noise: f32) -> f32 {
+// sqrt(outside), less the eye's: of a point `level` above the ellipsoid, whose outside is `farther`
+// more than the eye's.
+fn root_over(place: Place, normal: vec3<f32>, level: f32, farther: f32) -> f32 {
     let outside_eye = sight.eye_gradient.w;
     let root_eye = sqrt(max(outside_eye, 0.0));
-    let outside = outside_eye + farther;
-    if outside <= noise {
+    if level <= 0.0 {
         return -root_eye;
     }
-    let root = sqrt(outside);
-    return select(root, farther / (root + root_eye), outside_eye > 0.0);
+    if outside_eye > 0.0 && outside_eye < NEAR_M {
+        return farther / (sqrt(max(outside_eye + farther, 0.0)) + root_eye);
+    }
+    // Of a high eye the outside has grown faster than its distance; that of the height is better.
+    let upright = normalize(normal);
+    let m = vec3<f32>(1.0, 1.0, sight.ellipsoid.y);
+    let curved = level * dot(upright, m * upright) / sight.ellipsoid.x;
+    return sqrt(level * (2.0 * place.stretch + curved)) - root_eye;
 }

@@ -103,11 +103,7 @@ impl FieldOfView {
             // Corners on one plane through the apex are allowed, up to rounding.
             let others = |normal: DVec3| corners.iter().all(|corner| corner.dot(normal) > -1e-12);
             let distinct = (corners[k] - next(k)).length() > 1e-9;
-            if !(distinct
-                && inward[k].is_finite()
-                && others(inward[k])
-                && corners[k].dot(middle) > 0.0)
-            {
+            if !(distinct && inward[k].is_finite() && others(inward[k])) {
                 return Err(SensorError::Corner(k));
             }
         }
