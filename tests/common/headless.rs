@@ -13,14 +13,22 @@ pub struct Gpu {
 /// The device. Without an adapter: None, said loudly; a failure where CI=true.
 pub fn gpu() -> Option<&'static Gpu> {
     static GPU: OnceLock<Result<Gpu, String>> = OnceLock::new();
-    let opened = GPU.get_or_init(|| pollster::block_on(open(wgpu::Features::empty())));
+    let opened = GPU.get_or_init(|| pollster::block_on(open(wgpu::Features::empty(), |_| {})));
     opened.as_ref().map_err(|reason| missing(reason)).ok()
 }
 
 /// A device of its own that lacks `withheld`, as poorer adapters do.
 #[allow(dead_code, reason = "not every test binary tests poorer adapters")]
 pub fn gpu_without(withheld: wgpu::Features) -> Option<Gpu> {
-    pollster::block_on(open(withheld))
+    pollster::block_on(open(withheld, |_| {}))
+        .map_err(|reason| missing(&reason))
+        .ok()
+}
+
+/// A device of its own with lower limits.
+#[allow(dead_code, reason = "not every test binary tests poorer adapters")]
+pub fn gpu_limited(lower: impl Fn(&mut wgpu::Limits)) -> Option<Gpu> {
+    pollster::block_on(open(wgpu::Features::empty(), lower))
         .map_err(|reason| missing(&reason))
         .ok()
 }
@@ -35,17 +43,19 @@ fn missing(reason: &str) {
     );
 }
 
-async fn open(withheld: wgpu::Features) -> Result<Gpu, String> {
+async fn open(withheld: wgpu::Features, lower: impl Fn(&mut wgpu::Limits)) -> Result<Gpu, String> {
     let instance =
         wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
     let adapter = instance
         .request_adapter(&wgpu::RequestAdapterOptions::default())
         .await
         .map_err(|error| error.to_string())?;
+    let mut limits = adapter.limits();
+    lower(&mut limits);
     let (device, queue) = adapter
         .request_device(&wgpu::DeviceDescriptor {
             required_features: (Renderer::wanted_features() & adapter.features()) - withheld,
-            required_limits: adapter.limits(),
+            required_limits: limits,
             ..Default::default()
         })
         .await
