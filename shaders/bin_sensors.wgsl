@@ -1,9 +1,13 @@
-// Binning: for each tile, which sensors cover all of its surface (summed here, once) and which may
-// cover some of it (listed, for the resolve to ask at each pixel).
+// Binning: for each block, then for each tile, which sensors cover all of its surface (summed, once)
+// and which may cover some of it (listed, to be asked again nearer by).
 
-// A ball around the surface in a tile: middle from the eye, radius; the radius is negative if there is
-// only sky.
-fn ball_of(corner: vec2<u32>) -> vec4<f32> {
+// The surface's distances within each tile.
+@compute @workgroup_size(64)
+fn cs_range(@builtin(global_invocation_id) id: vec3<u32>) {
+    if id.x >= sight.tiles.z {
+        return;
+    }
+    let corner = TILE * tile_at(id.x);
     let end = min(corner + TILE, sight.size.xy);
     var least = 2.0;
     var most = -1.0;
@@ -11,62 +15,130 @@ fn ball_of(corner: vec2<u32>) -> vec4<f32> {
         for (var x = corner.x; x < end.x; x += 1u) {
             for (var sample = 0u; sample < SAMPLES; sample += 1u) {
                 let depth = depth_at(vec2<u32>(x, y), sample);
-                if !is_sky(depth) {
-                    least = min(least, depth);
-                    most = max(most, depth);
-                }
+                let sky = is_sky(depth);
+                least = select(min(least, depth), least, sky);
+                most = select(max(most, depth), most, sky);
             }
         }
     }
-    if most < least {
-        return vec4<f32>(0.0, 0.0, 0.0, -1.0);
+    var tile: Tile;
+    if most >= least {
+        let distances = vec2<f32>(distance_of(least), distance_of(most));
+        tile.nearest = min(distances.x, distances.y);
+        tile.farthest = max(distances.x, distances.y);
     }
-    // The tile's part of the frustum between the nearest and the farthest distance.
-    let first = distance_of(least);
-    let last = distance_of(most);
+    tiles[id.x] = tile;
+}
+
+// A ball around the surface within a rectangle of pixels: its middle from the eye, its radius.
+fn ball_of(corner: vec2<u32>, end: vec2<u32>, tile: Tile) -> vec4<f32> {
     let edges = array<vec2<u32>, 4>(
         corner, vec2<u32>(end.x, corner.y), vec2<u32>(corner.x, end.y), end,
     );
-    let middle = ray_at(0.5 * vec2<f32>(corner + end)) * (0.5 * (first + last));
+    let middle = ray_at(0.5 * vec2<f32>(corner + end)) * (0.5 * (tile.nearest + tile.farthest));
     var radius = 0.0;
     for (var k = 0; k < 4; k += 1) {
         let ray = ray_at(vec2<f32>(edges[k]));
-        radius = max(radius, max(length(ray * first - middle), length(ray * last - middle)));
+        radius = max(radius, length(ray * tile.nearest - middle));
+        radius = max(radius, length(ray * tile.farthest - middle));
     }
     // Foot points lie hardly farther apart than what stands on them; the rest is for rounding.
     return vec4<f32>(middle, 1.05 * radius + 1e-5 * length(middle));
 }
 
+// Appends to a list; answers whether there was room.
+fn append(tile: ptr<function, Tile>, cursor: ptr<function, Cursor>, sensor: u32) -> bool {
+    if (*cursor).entry % PAGE == 0u {
+        let page = atomicAdd(&used, 1u);
+        if page >= sight.counts.y {
+            return false;
+        }
+        if (*cursor).entry == 0u {
+            (*tile).page = page;
+        } else {
+            pages[PAGE * sight.counts.y + (*cursor).page] = page;
+        }
+        (*cursor).page = page;
+    }
+    pages[PAGE * (*cursor).page + (*cursor).entry % PAGE] = sensor;
+    (*cursor).entry += 1u;
+    return true;
+}
+
 @compute @workgroup_size(64)
-fn cs_bin(@builtin(global_invocation_id) id: vec3<u32>) {
-    let index = id.x;
-    if index >= sight.size.w {
+fn cs_bin_blocks(@builtin(global_invocation_id) id: vec3<u32>) {
+    if id.x >= sight.blocks.z {
         return;
     }
-    let corner = TILE * vec2<u32>(index % sight.size.z, index / sight.size.z);
-    let ball = ball_of(corner);
-    var tile: Tile;
-    if ball.w >= 0.0 {
-        tile.surface = 1u;
+    let first = BLOCK * block_at(id.x);
+    let last = min(first + BLOCK, sight.tiles.xy);
+    var block: Tile;
+    for (var y = first.y; y < last.y; y += 1u) {
+        for (var x = first.x; x < last.x; x += 1u) {
+            let tile = tiles[y * sight.tiles.x + x];
+            if tile.farthest > 0.0 {
+                let none = block.farthest == 0.0;
+                block.nearest = select(min(block.nearest, tile.nearest), tile.nearest, none);
+                block.farthest = max(block.farthest, tile.farthest);
+            }
+        }
+    }
+    if block.farthest > 0.0 {
+        let ball = ball_of(TILE * first, min(TILE * last, sight.size.xy), block);
         let place = place_of(ball.xyz, ball.w);
-        let capacity = sight.counts.y;
+        var list: Cursor;
         for (var sensor = 0u; sensor < sight.counts.x; sensor += 1u) {
+            let slack = slack_of(sensor, place, ball.w);
+            if slack.x >= 0.0 {
+                block.weight += sensors[sensor].weight;
+                block.covering += 1u;
+            } else if slack.y >= 0.0 && !append(&block, &list, sensor) {
+                list.entry = UNLISTED;
+                break;
+            }
+        }
+        block.partly = list.entry;
+        if list.entry == UNLISTED {
+            block.weight = vec4<u32>(0u);
+            block.covering = 0u;
+        }
+    }
+    blocks[id.x] = block;
+}
+
+@compute @workgroup_size(64)
+fn cs_bin_tiles(@builtin(global_invocation_id) id: vec3<u32>) {
+    if id.x >= sight.tiles.z {
+        return;
+    }
+    let at = tile_at(id.x);
+    let block = blocks[block_of(at)];
+    var tile = tiles[id.x];
+    tile.weight = block.weight;
+    tile.covering = block.covering;
+    let listed = block.partly != UNLISTED;
+    let asked = select(sight.counts.x, block.partly, listed);
+    if tile.farthest > 0.0 && asked > 0u {
+        let ball = ball_of(TILE * at, min(TILE * (at + 1u), sight.size.xy), tile);
+        let place = place_of(ball.xyz, ball.w);
+        var asking = Cursor(block.page, 0u);
+        var list: Cursor;
+        for (var k = 0u; k < asked; k += 1u) {
+            let sensor = next_sensor(&asking, listed);
             let slack = slack_of(sensor, place, ball.w);
             if slack.x >= 0.0 {
                 tile.weight += sensors[sensor].weight;
                 tile.covering += 1u;
-            } else if slack.y >= 0.0 {
-                if tile.partly < capacity {
-                    lists[index * capacity + tile.partly] = sensor;
-                }
-                tile.partly += 1u;
+            } else if slack.y >= 0.0 && !append(&tile, &list, sensor) {
+                list.entry = UNLISTED;
+                break;
             }
         }
-        if tile.partly > capacity {
-            tile.weight = vec4<u32>(0u);
-            tile.covering = 0u;
-            tile.partly = UNLISTED;
+        tile.partly = list.entry;
+        if list.entry == UNLISTED {
+            tile.weight = block.weight;
+            tile.covering = block.covering;
         }
     }
-    tiles[index] = tile;
+    tiles[id.x] = tile;
 }

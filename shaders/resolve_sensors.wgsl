@@ -9,46 +9,49 @@ struct Sums {
     covering: u32,
 }
 
-struct TileVertex {
+struct BlockVertex {
     @builtin(position) position: vec4<f32>,
-    @location(0) @interpolate(flat) tile: u32,
+    @location(0) @interpolate(flat) block: u32,
 }
 
-// A rectangle a tile; none for tiles where nothing is to be drawn.
+// A rectangle a block; none for blocks where nothing is to be drawn.
 @vertex
-fn vs_tile(
+fn vs_block(
     @builtin(vertex_index) vertex: u32,
     @builtin(instance_index) index: u32,
-) -> TileVertex {
+) -> BlockVertex {
     let gaps = sight.counts.w != 0u;
-    let drawn = tiles[index].surface != 0u
-        && (gaps || tiles[index].covering + tiles[index].partly > 0u);
-    let corner = vec2<u32>(index % sight.size.z, index / sight.size.z)
-        + vec2<u32>(vertex & 1u, vertex >> 1u);
-    let at_px = vec2<f32>(min(TILE * corner, sight.size.xy));
+    let drawn = blocks[index].farthest > 0.0
+        && (gaps || blocks[index].covering + blocks[index].partly > 0u);
+    let corner = block_at(index) + vec2<u32>(vertex & 1u, vertex >> 1u);
+    let at_px = vec2<f32>(min(TILE * BLOCK * corner, sight.size.xy));
     let clip = at_px / vec2<f32>(sight.size.xy) * vec2<f32>(2.0, -2.0) + vec2<f32>(-1.0, 1.0);
-    var out: TileVertex;
+    var out: BlockVertex;
     out.position = vec4<f32>(select(vec2<f32>(-2.0), clip, drawn), 0.0, 1.0);
-    out.tile = index;
+    out.block = index;
     return out;
 }
 
-fn sums_at(pixel: vec2<u32>, sample: u32, index: u32) -> Sums {
+fn sums_at(pixel: vec2<u32>, sample: u32, block: u32) -> Sums {
     let depth = depth_at(pixel, sample);
     if is_sky(depth) {
         discard;
     }
-    var sums = Sums(tiles[index].weight, tiles[index].covering);
-    let unlisted = tiles[index].partly == UNLISTED;
-    let count = select(tiles[index].partly, sight.counts.x, unlisted);
-    if count > 0u {
+    let at = pixel / TILE;
+    // Whom to ask: the tile's list, or the block's, or all.
+    var lister = tiles[at.y * sight.tiles.x + at.x];
+    var sums = Sums(lister.weight, lister.covering);
+    if lister.partly == UNLISTED {
+        lister = blocks[block];
+    }
+    let listed = lister.partly != UNLISTED;
+    let asked = select(sight.counts.x, lister.partly, listed);
+    if asked > 0u {
         let ray = ray_at(vec2<f32>(pixel) + sample_px(sample));
         let place = place_of(ray * distance_of(depth), 0.0);
-        for (var k = 0u; k < count; k += 1u) {
-            var sensor = k;
-            if !unlisted {
-                sensor = lists[index * sight.counts.y + k];
-            }
+        var asking = Cursor(lister.page, 0u);
+        for (var k = 0u; k < asked; k += 1u) {
+            let sensor = next_sensor(&asking, listed);
             if covers(sensor, place) {
                 sums.weight += sensors[sensor].weight;
                 sums.covering += 1u;
@@ -70,21 +73,21 @@ fn coverage(sums: Sums) -> vec4<f32> {
 }
 
 @fragment
-fn fs_blended(in: TileVertex) -> @location(0) vec4<f32> {
-    return blended(sums_at(vec2<u32>(in.position.xy), 0u, in.tile));
+fn fs_blended(in: BlockVertex) -> @location(0) vec4<f32> {
+    return blended(sums_at(vec2<u32>(in.position.xy), 0u, in.block));
 }
 
 @fragment
-fn fs_coverage(in: TileVertex) -> @location(0) vec4<f32> {
-    return coverage(sums_at(vec2<u32>(in.position.xy), 0u, in.tile));
+fn fs_coverage(in: BlockVertex) -> @location(0) vec4<f32> {
+    return coverage(sums_at(vec2<u32>(in.position.xy), 0u, in.block));
 }
 
 @fragment
-fn fs_blended_sample(in: TileVertex, @builtin(sample_index) sample: u32) -> @location(0) vec4<f32> {
-    return blended(sums_at(vec2<u32>(in.position.xy), sample, in.tile));
+fn fs_blended_sample(in: BlockVertex, @builtin(sample_index) sample: u32) -> @location(0) vec4<f32> {
+    return blended(sums_at(vec2<u32>(in.position.xy), sample, in.block));
 }
 
 @fragment
-fn fs_coverage_sample(in: TileVertex, @builtin(sample_index) sample: u32) -> @location(0) vec4<f32> {
-    return coverage(sums_at(vec2<u32>(in.position.xy), sample, in.tile));
+fn fs_coverage_sample(in: BlockVertex, @builtin(sample_index) sample: u32) -> @location(0) vec4<f32> {
+    return coverage(sums_at(vec2<u32>(in.position.xy), sample, in.block));
 }

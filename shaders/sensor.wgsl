@@ -47,7 +47,8 @@ fn slack_of(index: u32, place: Place, radius: f32) -> vec2<f32> {
     let limb = sensor.limb.w + dot(sensor.limb.xyz, to);
     let limb_spread = radius * length(sensor.limb.xyz);
     bounds = min(bounds, limb + sensor.rise.y * place.over + vec2<f32>(-limb_spread, limb_spread));
-    if sensor.line.w > -1.0 {
+    // A loop, since software rasterisers walk through an `if` that no lane takes.
+    for (var once = sensor.line.w > -1.0; once; once = false) {
         let distance = length(sensor.line.xyz + to);
         let nearer = length(sensor.line.xyz);
         let longer = dot(to, 2.0 * sensor.line.xyz + to) / max(distance + nearer, 1e-30);

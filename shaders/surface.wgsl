@@ -17,9 +17,12 @@ struct Sight {
     eye_gradient: vec4<f32>,
     // The eye's foot point times (1, 1, (a/b)^2).
     foot_gradient: vec4<f32>,
-    // Width, height, tiles in a row, tiles.
+    // Width, height.
     size: vec4<u32>,
-    // Sensors, most entries in a tile's list, colours of the coverage, whether gaps are coloured.
+    // Tiles across and down, number of tiles; and the same of blocks.
+    tiles: vec4<u32>,
+    blocks: vec4<u32>,
+    // Sensors, pages, colours of the coverage, whether gaps are coloured.
     counts: vec4<u32>,
     // x: optical depth of one unit of weight.
     weight: vec4<f32>,

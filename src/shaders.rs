@@ -17,6 +17,7 @@ const DEPTH_MULTISAMPLED: &str = include_str!("../shaders/depth_multisampled.wgs
 const TILE: &str = include_str!("../shaders/tile.wgsl");
 const TILES_READ: &str = include_str!("../shaders/tiles_read.wgsl");
 const TILES_WRITE: &str = include_str!("../shaders/tiles_write.wgsl");
+const LIST: &str = include_str!("../shaders/list.wgsl");
 const BIN_SENSORS: &str = include_str!("../shaders/bin_sensors.wgsl");
 const COUNT_SENSORS: &str = include_str!("../shaders/count_sensors.wgsl");
 const RESOLVE_SENSORS: &str = include_str!("../shaders/resolve_sensors.wgsl");
@@ -61,7 +62,8 @@ fn depth(sample_count: u32) -> &'static str {
 /// Which sensors cover which tiles.
 pub fn bin_sensors(sample_count: u32) -> String {
     let depth = depth(sample_count);
-    [SURFACE, SENSOR, depth, TILE, TILES_WRITE, BIN_SENSORS].concat()
+    let parts = [SURFACE, SENSOR, depth, TILE, TILES_WRITE, LIST, BIN_SENSORS];
+    parts.concat()
 }
 
 /// How many sensors cover one pixel.
@@ -72,7 +74,16 @@ pub fn count_sensors(sample_count: u32) -> String {
 /// The colour of the sensors that cover each pixel.
 pub fn resolve_sensors(sample_count: u32) -> String {
     let depth = depth(sample_count);
-    [SURFACE, SENSOR, depth, TILE, TILES_READ, RESOLVE_SENSORS].concat()
+    let parts = [
+        SURFACE,
+        SENSOR,
+        depth,
+        TILE,
+        TILES_READ,
+        LIST,
+        RESOLVE_SENSORS,
+    ];
+    parts.concat()
 }
 
 /// Every program with its name, for validation without a GPU.
@@ -164,7 +175,7 @@ mod tests {
         let (members, size) = layout_of(&super::bin_sensors(1), "Sight");
         let expected = offsets!(
             SightUniform: ray, right, down, depth, ellipsoid, eye_gradient, foot_gradient, size,
-            counts, weight
+            tiles, blocks, counts, weight
         );
         assert_eq!(members, expected);
         assert_eq!(size, size_of::<SightUniform>());

@@ -5,7 +5,9 @@ use glam::{DMat3, DVec3, UVec2, Vec4Swizzles as _};
 use crate::{frame::reference::Reference, frame::sight::Sight, options::DepthConvention};
 
 /// Pixels across a tile; as in tile.wgsl.
-pub(crate) const TILE: u32 = 16;
+const TILE: u32 = 8;
+/// Tiles across a block; as in tile.wgsl.
+const BLOCK: u32 = 8;
 
 /// `Sight` of surface.wgsl; see there.
 #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
@@ -19,6 +21,8 @@ pub(crate) struct SightUniform {
     pub eye_gradient: [f32; 4],
     pub foot_gradient: [f32; 4],
     pub size: [u32; 4],
+    pub tiles: [u32; 4],
+    pub blocks: [u32; 4],
     pub counts: [u32; 4],
     pub weight: [f32; 4],
 }
@@ -45,7 +49,8 @@ impl SightUniform {
         let ratio = ellipsoid.a_m / ellipsoid.b_m;
         let eye_gradient = reference.scaled(reference.eye_ecef_m) * (2.0 / ellipsoid.a_m);
         let foot_gradient = reference.scaled(reference.foot_ecef_m);
-        let tiles = tiles(size_px);
+        let tiles = divided(size_px, TILE);
+        let counted = |grid: UVec2| [grid.x, grid.y, grid.element_product(), 0];
         Self {
             ray: padded(relative_from_clip.z_axis, 0.0),
             right: padded(relative_from_clip.x_axis * (2.0 / size.x), 0.0),
@@ -61,16 +66,18 @@ impl SightUniform {
                 .map(|part| part as f32),
             eye_gradient: padded(eye_gradient, reference.outside_m),
             foot_gradient: padded(foot_gradient, 0.0),
-            size: [size_px.x, size_px.y, tiles.x, tiles.element_product()],
+            size: [size_px.x, size_px.y, 0, 0],
+            tiles: counted(tiles),
+            blocks: counted(divided(tiles, BLOCK)),
             counts: [0; 4],
             weight: [0.0; 4],
         }
     }
 }
 
-/// Tiles across and down.
-pub(crate) fn tiles(size_px: UVec2) -> UVec2 {
-    UVec2::new(size_px.x.div_ceil(TILE), size_px.y.div_ceil(TILE))
+/// How many squares of `side` cover a grid, across and down.
+fn divided(grid: UVec2, side: u32) -> UVec2 {
+    UVec2::new(grid.x.div_ceil(side), grid.y.div_ceil(side))
 }
 
 fn padded(vector: DVec3, last: f64) -> [f32; 4] {

@@ -21,8 +21,10 @@ pub(crate) struct SensorPipelines {
     pub depth_layout: wgpu::BindGroupLayout,
     /// What is read back.
     pub answer_layout: wgpu::BindGroupLayout,
-    pub bin: wgpu::ComputePipeline,
-    pub count: wgpu::ComputePipeline,
+    /// Ranges of depth, blocks, tiles.
+    pub binning: Vec<wgpu::ComputePipeline>,
+    /// Counting at one pixel.
+    pub counting: Vec<wgpu::ComputePipeline>,
     blended: Option<wgpu::RenderPipeline>,
     coverage: Option<wgpu::RenderPipeline>,
 }
@@ -46,36 +48,27 @@ impl SensorPipelines {
         let compute = wgpu::ShaderStages::COMPUTE;
         let make = |label, stages, bindings: &[_]| layout(device, label, stages, bindings);
         let scene_layout = make("globefill sensors", stages, &[uniform, read, read, read]);
-        let binned_layout = make("globefill binned", compute, &[written; 2]);
+        let binned_layout = make("globefill binned", compute, &[written; 4]);
         let tiles_layout = make(
             "globefill tiles",
             wgpu::ShaderStages::VERTEX_FRAGMENT,
-            &[read; 2],
+            &[read; 3],
         );
         let depth_layout = make("globefill depth", stages, &[depth]);
         let answer_layout = make("globefill answer", compute, &[written]);
         let samples = options.sample_count;
-        let pipeline = |source: String, layouts: [&wgpu::BindGroupLayout; 3], entry| {
-            device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-                label: Some(entry),
-                layout: Some(&pipeline_layout(device, layouts)),
-                module: &module(device, source),
-                entry_point: Some(entry),
-                compilation_options: Default::default(),
-                cache: None,
-            })
+        let steps = |source, groups, entries| {
+            let layout = pipeline_layout(device, [&scene_layout, groups, &depth_layout]);
+            compute_pipelines(device, source, &layout, entries)
         };
+        let binning = ["cs_range", "cs_bin_blocks", "cs_bin_tiles"];
         Self {
             options,
-            bin: pipeline(
-                shaders::bin_sensors(samples),
-                [&scene_layout, &binned_layout, &depth_layout],
-                "cs_bin",
-            ),
-            count: pipeline(
+            binning: steps(shaders::bin_sensors(samples), &binned_layout, &binning),
+            counting: steps(
                 shaders::count_sensors(samples),
-                [&scene_layout, &answer_layout, &depth_layout],
-                "cs_count",
+                &answer_layout,
+                &["cs_count"],
             ),
             scene_layout,
             binned_layout,
@@ -121,7 +114,7 @@ impl SensorPipelines {
             layout: Some(&pipeline_layout(device, layouts)),
             vertex: wgpu::VertexState {
                 module: &module,
-                entry_point: Some("vs_tile"),
+                entry_point: Some("vs_block"),
                 compilation_options: Default::default(),
                 buffers: &[],
             },
@@ -148,6 +141,28 @@ impl SensorPipelines {
             cache: None,
         })
     }
+}
+
+fn compute_pipelines(
+    device: &wgpu::Device,
+    source: String,
+    layout: &wgpu::PipelineLayout,
+    entries: &[&str],
+) -> Vec<wgpu::ComputePipeline> {
+    let module = module(device, source);
+    entries
+        .iter()
+        .map(|entry| {
+            device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: Some(entry),
+                layout: Some(layout),
+                module: &module,
+                entry_point: Some(entry),
+                compilation_options: Default::default(),
+                cache: None,
+            })
+        })
+        .collect()
 }
 
 fn module(device: &wgpu::Device, source: String) -> wgpu::ShaderModule {

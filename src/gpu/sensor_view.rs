@@ -3,17 +3,20 @@
 use crate::{
     frame::reference::Reference,
     frame::sensor_records::SensorRecords,
-    frame::sight_uniform::{SightUniform, tiles},
+    frame::sight_uniform::SightUniform,
     gpu::sensor_pipelines::{SensorPipelines, Shown},
     gpu::stream_buffer::StreamBuffer,
     options::Frame,
     sensor_set::{SensorDisplay, SensorSet},
 };
 
-/// Most bytes of the lists of all tiles.
-const MOST_LIST_BYTES: u64 = 64 << 20;
+/// Entries of a page of tile.wgsl, and its bytes with its link.
+const PAGE_ENTRIES: usize = 32;
+const PAGE_BYTES: u64 = 4 * (PAGE_ENTRIES as u64 + 1);
+/// Most bytes of all pages.
+const MOST_PAGE_BYTES: u64 = 64 << 20;
 /// Bytes of `Tile` of tile.wgsl.
-const TILE_BYTES: u64 = 32;
+const TILE_BYTES: u64 = 48;
 
 /// Buffers and bindings of one view.
 pub(crate) struct SensorView {
@@ -27,15 +30,16 @@ pub(crate) struct SensorView {
     /// The depth last given to `count`.
     depth: Option<(wgpu::TextureView, wgpu::BindGroup)>,
     pub shown: Shown,
-    pub tile_count: u32,
+    pub block_count: u32,
+    tile_count: u32,
     /// What was last uploaded for, and the stamp of its set.
     prepared: Option<(Frame, u64)>,
 }
 
-/// Tiles and their lists.
+/// Tiles, blocks and their lists.
 struct Tiles {
-    /// Tiles, and entries in the list of each.
-    key: (u32, u32),
+    key: TilesKey,
+    used: wgpu::Buffer,
     binned: wgpu::BindGroup,
     read: wgpu::BindGroup,
 }
@@ -62,6 +66,7 @@ impl SensorView {
             scene: None,
             depth: None,
             shown: Shown::Blended,
+            block_count: 0,
             tile_count: 0,
             prepared: None,
         }
@@ -82,12 +87,12 @@ impl SensorView {
     ) -> u64 {
         let set = with.set;
         self.records.update(set, with.reference);
-        let grid = tiles(with.frame.size_px);
-        self.tile_count = grid.element_product();
-        let capacity = list_capacity(device, self.tile_count, set.len());
         let mut uniform = with.uniform;
+        [self.tile_count, self.block_count] = [uniform.tiles[2], uniform.blocks[2]];
+        let pages = page_count(device, self.tile_count + self.block_count, set.len());
+        let key = [self.tile_count, self.block_count, pages];
         uniform.weight[0] = self.records.depth_per_weight() as f32;
-        uniform.counts = [set.len() as u32, capacity, 0, 0];
+        uniform.counts[..2].copy_from_slice(&[set.len() as u32, pages]);
         let colors: Vec<[f32; 4]> = match set.display() {
             SensorDisplay::Blended => {
                 self.shown = Shown::Blended;
@@ -119,7 +124,6 @@ impl SensorView {
         if moved {
             self.bind(device, pipelines);
         }
-        let key = (self.tile_count, capacity);
         if self.tiles.as_ref().is_none_or(|tiles| tiles.key != key) {
             self.tiles = Some(Tiles::new(device, pipelines, key));
         }
@@ -146,15 +150,19 @@ impl SensorView {
         else {
             return;
         };
+        encoder.clear_buffer(&tiles.used, 0, None);
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
             label: Some("globefill bin sensors"),
             timestamp_writes: None,
         });
-        pass.set_pipeline(&pipelines.bin);
         for (index, group) in (0..).zip([scene, &tiles.binned, depth]) {
             pass.set_bind_group(index, group, &[]);
         }
-        pass.dispatch_workgroups(self.tile_count.div_ceil(64), 1, 1);
+        let counts = [self.tile_count, self.block_count, self.tile_count];
+        for (pipeline, count) in pipelines.binning.iter().zip(counts) {
+            pass.set_pipeline(pipeline);
+            pass.dispatch_workgroups(count.div_ceil(64), 1, 1);
+        }
     }
 
     fn bind_depth(
@@ -191,7 +199,7 @@ impl SensorView {
         for (index, group) in (0..).zip([scene, &tiles.read, depth]) {
             pass.set_bind_group(index, group, &[]);
         }
-        pass.draw(0..4, 0..self.tile_count);
+        pass.draw(0..4, 0..self.block_count);
     }
 
     /// Records the counting at one pixel into `answer`, which starts with the pixel.
@@ -210,48 +218,58 @@ impl SensorView {
             label: Some("globefill count sensors"),
             timestamp_writes: None,
         });
-        pass.set_pipeline(&pipelines.count);
         for (index, group) in (0..).zip([scene, &answer, depth]) {
             pass.set_bind_group(index, group, &[]);
         }
-        pass.dispatch_workgroups(1, 1, 1);
+        for pipeline in &pipelines.counting {
+            pass.set_pipeline(pipeline);
+            pass.dispatch_workgroups(1, 1, 1);
+        }
     }
 }
 
+/// How many tiles, blocks and pages there are.
+type TilesKey = [u32; 3];
+
 impl Tiles {
-    fn new(device: &wgpu::Device, pipelines: &SensorPipelines, key: (u32, u32)) -> Self {
-        let (tiles, capacity) = key;
+    fn new(device: &wgpu::Device, pipelines: &SensorPipelines, key: TilesKey) -> Self {
         let buffer = |label, size| {
             device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some(label),
                 size,
-                usage: wgpu::BufferUsages::STORAGE,
+                usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
                 mapped_at_creation: false,
             })
         };
-        let heads = buffer("globefill tiles", u64::from(tiles) * TILE_BYTES);
-        let lists = buffer(
-            "globefill tile lists",
-            4 * u64::from(tiles) * u64::from(capacity),
-        );
-        let buffers = [&heads, &lists];
+        let [tiles, blocks, pages] = key.map(u64::from);
+        let tiles = buffer("globefill tiles", tiles * TILE_BYTES);
+        let blocks = buffer("globefill blocks", blocks * TILE_BYTES);
+        let pages = buffer("globefill pages", pages * PAGE_BYTES);
+        let used = buffer("globefill pages used", 4);
         Self {
             key,
-            binned: group(device, &pipelines.binned_layout, &buffers),
-            read: group(device, &pipelines.tiles_layout, &buffers),
+            binned: group(
+                device,
+                &pipelines.binned_layout,
+                &[&tiles, &blocks, &pages, &used],
+            ),
+            read: group(device, &pipelines.tiles_layout, &[&tiles, &blocks, &pages]),
+            used,
         }
     }
 }
 
-/// Entries in the list of each tile: enough for all sensors, as far as memory allows. Tiles whose
-/// list is too short ask all sensors, which is slow and as right.
-fn list_capacity(device: &wgpu::Device, tiles: u32, sensors: usize) -> u32 {
+/// Pages for the lists of all tiles and blocks: as many as could be needed, as far as memory allows.
+/// Where they run out, pixels ask longer lists, which is slow and as right.
+fn page_count(device: &wgpu::Device, lists: u32, sensors: usize) -> u32 {
     let most_bytes = device
         .limits()
         .max_storage_buffer_binding_size
-        .min(MOST_LIST_BYTES);
-    let most = (most_bytes / 4 / u64::from(tiles.max(1))).max(1);
-    (sensors.next_power_of_two() as u64).min(most) as u32
+        .min(MOST_PAGE_BYTES);
+    let longest = (sensors as u64 * 4)
+        .div_ceil(PAGE_BYTES - 4)
+        .next_power_of_two();
+    (longest * u64::from(lists)).min(most_bytes / PAGE_BYTES) as u32
 }
 
 fn group(

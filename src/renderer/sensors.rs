@@ -63,9 +63,9 @@ impl Renderer {
             stats.upload_bytes += sensors.prepare(&self.device, queue, pipelines, with);
         }
         stats.sensors = visible as u32;
-        stats.dispatches = 1;
+        stats.dispatches = pipelines.binning.len() as u32;
         stats.draws += 1;
-        stats.vertices += 4 * u64::from(sensors.tile_count);
+        stats.vertices += 4 * u64::from(sensors.block_count);
         Ok(())
     }
 
