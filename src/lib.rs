@@ -73,7 +73,9 @@ pub mod frame_stats;
 #[cfg(feature = "geojson")]
 pub mod geo_json;
 pub mod geodetic;
+pub mod locator;
 pub mod options;
+pub mod outline;
 pub mod region;
 pub mod renderer;
 pub mod repair;
@@ -97,9 +99,11 @@ pub use crate::{
     fill_mesh::{FillMesh, MeshOptions},
     frame_stats::FrameStats,
     geodetic::LonLat,
+    locator::Locator,
     options::{
         Camera, CountTechnique, DepthConvention, FillStyle, Frame, HeightRange, RendererOptions,
     },
+    outline::{Cap, Measures, Outline, Stretch},
     region::{EdgeKind, Inside, Polygon, Region, Ring},
     renderer::{MeshId, Renderer},
     repair::{Place, Repair, RepairKind},

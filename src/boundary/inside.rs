@@ -109,11 +109,14 @@ fn direct_others(
         .iter()
         .enumerate()
         .flat_map(|(label, side)| side.component.edges().map(move |edge| (edge, label as u32)));
-    let index = MeridianIndex::new(ellipsoid, graph, labelled);
+    let index = MeridianIndex::new(graph, labelled);
     // Per component those that separate a point of it from the north pole.
     let separating: Vec<Vec<u32>> = sides
         .iter()
-        .map(|side| index.separating(point_on(graph, side.component.edges()), |_| {}))
+        .map(|side| {
+            let point = point_on(graph, side.component.edges());
+            index.separating(ellipsoid, graph, point, |_| {})
+        })
         .collect();
     let separates =
         |other: usize, from: usize| separating[from].binary_search(&(other as u32)).is_ok();
