@@ -61,6 +61,12 @@
 //! where rasterisation and single precision end. Stored boundaries are within
 //! [`MeshOptions::tolerance_m`]; chords nearer to the eye than that allows are replaced by finer ones
 //! for the frame.
+//!
+//! # Answers
+//!
+//! What the pixels show can be asked for exactly, in double precision, from the true boundaries:
+//! [`Locator`] tells which fills contain a point, [`FillMesh::measures`] and
+//! [`FillMesh::bounding_cap`] tell area, centroid and extent, [`Outline`] the same of other curves.
 
 #[cfg(feature = "countries")]
 pub mod countries;

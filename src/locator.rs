@@ -110,10 +110,7 @@ impl Locator {
 fn labelled_edges(mesh: &FillMesh, graph: &mut BoundaryGraph) -> Vec<(DirectedEdge, u32)> {
     let mut labelled = Vec::with_capacity(2 * mesh.curves.len());
     for arc in &mesh.arcs {
-        let last_vertex = arc.first_vertex + arc.vertex_count - 1;
-        let [first, last] = [arc.first_vertex, last_vertex]
-            .map(|vertex| mesh.boundary[vertex as usize].curve as usize);
-        for curve in &mesh.curves[first..=last] {
+        for curve in mesh.curves_along(arc) {
             let Some(edge) = graph.insert_curve(curve) else {
                 continue;
             };

@@ -1,8 +1,8 @@
 //! What fills measure, from their true edges.
 
 use crate::{
-    curve::CurveOn,
-    fill_mesh::FillMesh,
+    curve::{Curve, CurveOn},
+    fill_mesh::{Arc, FillMesh},
     geodetic::LonLat,
     outline::{Cap, Measures, Outline, bounding_cap::centre_of},
 };
@@ -30,7 +30,7 @@ impl FillMesh {
     /// A cap that holds a fill, about its centroid, or about the north pole where it has none.
     /// None for a fill that is empty or not there.
     ///
-    /// Its radius is at most 10⁻⁶ of itself plus 10⁻¹³ rad larger than the least about that centre,
+    /// Its radius is at most 10⁻⁵ of itself plus 10⁻¹³ rad larger than the least about that centre,
     /// or π where that one is within 10⁻³ rad of π. Proven for flattenings up to 1/50.
     pub fn bounding_cap(&self, fill: u32) -> Option<Cap> {
         let outlines = self.outlines(fill);
@@ -52,6 +52,15 @@ impl FillMesh {
             .map(|radius_rad| Cap { centre, radius_rad })
     }
 
+    /// The true edges along an arc, in its direction.
+    pub fn curves_along(&self, arc: &Arc) -> &[Curve] {
+        let first = arc.first_vertex as usize;
+        let run = self.boundary.get(first..first + arc.vertex_count as usize);
+        let ends = run.and_then(|run| Some((run.first()?.curve, run.last()?.curve)));
+        let curves = ends.and_then(|(first, last)| self.curves.get(first as usize..=last as usize));
+        curves.unwrap_or_default()
+    }
+
     /// The outlines of a fill's pieces; none has no stretches but one that is everything.
     fn outlines(&self, fill: u32) -> Vec<Outline<CurveOn>> {
         let Some(record) = self.fills.get(fill as usize) else {
@@ -64,10 +73,7 @@ impl FillMesh {
                 let piece = side.and_then(|piece| piece.checked_sub(record.first_piece));
                 let outline = piece.and_then(|piece| outlines.get_mut(piece as usize));
                 let Some(outline) = outline else { continue };
-                let first = self.boundary[arc.first_vertex as usize].curve as usize;
-                let last_vertex = arc.first_vertex + arc.vertex_count - 1;
-                let last = self.boundary[last_vertex as usize].curve as usize;
-                let curves = self.curves[first..=last].iter();
+                let curves = self.curves_along(arc).iter();
                 outline.stretches.extend(curves.map(|curve| {
                     let curve = if is_left { *curve } else { curve.reversed() };
                     curve.on(&self.ellipsoid)

@@ -29,7 +29,7 @@ impl Cap {
 }
 
 /// Excess aimed at, of the radius.
-const RELATIVE_EXCESS: f64 = 1e-6;
+const RELATIVE_EXCESS: f64 = 1e-5;
 /// And in radians: rounding of positions.
 const LEAST_EXCESS_RAD: f64 = 1e-13;
 /// Outlines nearer to the centre's antipode have a cap of everything.
@@ -41,7 +41,7 @@ impl<S: Stretch> Outline<S> {
     /// A cap that holds the region, about its centroid, or about the north pole where it has none;
     /// none if there is no outline.
     ///
-    /// Its radius is at most 10⁻⁶ of itself plus 10⁻¹³ rad larger than the least about that centre,
+    /// Its radius is at most 10⁻⁵ of itself plus 10⁻¹³ rad larger than the least about that centre,
     /// or π where that one is within 10⁻³ rad of π. The proof rests on [`Stretch::stray_m`].
     pub fn bounding_cap(&self) -> Option<Cap> {
         let measures = self.measures();

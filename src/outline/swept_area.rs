@@ -55,6 +55,8 @@ struct Interval {
     vector_sr: DVec3,
     error_sr: f64,
     rounding_sr: f64,
+    /// Whether the curve turns by more than 60° from half to half: then five points may miss how.
+    turns: bool,
 }
 
 impl SweptArea {
@@ -98,9 +100,11 @@ impl SweptArea {
             }
             sum_sr -= widest.chart_sr;
             error_sr -= widest.error_sr;
+            rounding_sr -= widest.rounding_sr;
             for half in widest.halves(sample) {
                 sum_sr += half.chart_sr;
                 error_sr += half.error_sr;
+                rounding_sr += half.rounding_sr;
                 open.push(half);
             }
         }
@@ -111,7 +115,7 @@ impl SweptArea {
         Self {
             chart_sr: total(|interval| interval.chart_sr),
             vector_area_m2: vector_sr * chart.square_radius_m2(),
-            error_sr: total(|interval| interval.error_sr) + rounding_sr,
+            error_sr: total(|interval| interval.error_sr + interval.rounding_sr),
         }
     }
 }
@@ -132,8 +136,8 @@ impl Interval {
         let difference_sr = (parabola_sr - chart_sr)
             .abs()
             .max((parabola_vector_sr - vector_sr).length());
-        // Where the curve turns by more than 60° from half to half, five points may miss how.
         let (there, on) = (middle.offset - first.offset, last.offset - middle.offset);
+        let length = there.length() + on.length();
         let turns = there.dot(on) < 0.5 * there.length() * on.length();
         let spread = place
             .iter()
@@ -151,7 +155,9 @@ impl Interval {
             chart_sr,
             vector_sr,
             error_sr,
-            rounding_sr: f64::EPSILON * offset[4].length(),
+            // Positions are off by an ulp or so, at right angles to the curve too.
+            rounding_sr: 2.0 * f64::EPSILON * length,
+            turns,
         }
     }
 
@@ -162,10 +168,20 @@ impl Interval {
         let middle = self.t0 + 0.5 * width;
         let first = [a, at(0.125), b, at(0.375), c];
         let last = [c, at(0.625), d, at(0.875), e];
-        [
+        let mut halves = [
             Self::new(self.stretch, self.t0, middle, first),
             Self::new(self.stretch, middle, self.t1, last),
-        ]
+        ];
+        // What the quartics change here was the whole's error, which theirs do not exceed: not even
+        // next to a root. Where the curve turns much they may agree by chance.
+        let [left, right] = &halves;
+        let chart_sr = left.chart_sr + right.chart_sr - self.chart_sr;
+        let vector_sr = left.vector_sr + right.vector_sr - self.vector_sr;
+        let change_sr = chart_sr.abs().max(vector_sr.length());
+        for half in halves.iter_mut().filter(|half| !half.turns) {
+            half.error_sr = half.error_sr.min(change_sr);
+        }
+        halves
     }
 }
 

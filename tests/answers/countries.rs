@@ -83,14 +83,10 @@ fn countries_have_the_area_between_their_edges_and_the_equator() {
 fn union(mesh: &FillMesh) -> Outline<globefill::CurveOn> {
     let mut curves: Vec<Curve> = Vec::new();
     for arc in &mesh.arcs {
-        let run = arc.first_vertex as usize..(arc.first_vertex + arc.vertex_count) as usize;
-        let run = &mesh.boundary[run];
-        let (first, last) = (run[0].curve as usize, run[run.len() - 1].curve as usize);
+        let along = mesh.curves_along(arc);
         match (arc.left, arc.right) {
-            (Some(_), None) => curves.extend(&mesh.curves[first..=last]),
-            (None, Some(_)) => {
-                curves.extend(mesh.curves[first..=last].iter().map(|c| c.reversed()))
-            }
+            (Some(_), None) => curves.extend(along),
+            (None, Some(_)) => curves.extend(along.iter().map(|curve| curve.reversed())),
             _ => {}
         }
     }

@@ -26,6 +26,7 @@ pub fn spread_positions(count: usize) -> impl Iterator<Item = LonLat> {
     spread(count).map(|(x, y)| LonLat::new(360.0 * x - 180.0, (2.0 * y - 1.0).asin().to_degrees()))
 }
 
+/// A region of one shell.
 pub fn region(edges: EdgeKind, inside: Inside, shell: &[(f64, f64)]) -> Region {
     let shell = shell.iter().map(|&(lon, lat)| LonLat::new(lon, lat));
     Region {
@@ -38,6 +39,7 @@ pub fn region(edges: EdgeKind, inside: Inside, shell: &[(f64, f64)]) -> Region {
     }
 }
 
+/// The mesh of regions that are in order.
 pub fn build(regions: &[Region]) -> FillMesh {
     FillMesh::build(regions, &MeshOptions::default()).unwrap()
 }

@@ -1,6 +1,9 @@
 //! Outlines given by closures: circles of every size, in awkward parametrisations.
 
-use std::f64::consts::{PI, TAU};
+use std::{
+    cell::Cell,
+    f64::consts::{PI, TAU},
+};
 
 use globefill::{Ellipsoid, Outline, glam::DVec3};
 
@@ -128,7 +131,7 @@ fn caps_of_circles_are_the_circles() {
             let cap = Outline::new(moon, stretches).bounding_cap().unwrap();
             let excess_rad = cap.radius_rad - radius_rad;
             assert!(
-                excess_rad >= -2e-9 && excess_rad < 1.1e-6 * radius_rad + 1e-9,
+                excess_rad >= -2e-9 && excess_rad < 1.1e-5 * radius_rad + 1e-9,
                 "{radius_rad} {excess_rad:e}"
             );
         }
@@ -172,4 +175,44 @@ fn annuli_and_holes_are_outlines_too() {
     let spike = Outline::new(mars, there.into_iter().chain(back).collect());
     assert!(spike.area_m2() < 1.0, "{:?}", spike.measures());
     assert_eq!(spike.centroid(), None);
+}
+
+#[test]
+fn loops_of_one_stretch_cost_little_however_small() {
+    let earth = Ellipsoid::WGS84;
+    for (index, position) in spread_positions(20).enumerate() {
+        let axis = earth.normal(position);
+        let (right, up) = axis.any_orthonormal_pair();
+        let radius_m = [0.01, 1.0, 100.0, 1e4, 1e6][index % 5];
+        let calls = Cell::new(0);
+        let ring = |t: f64| {
+            calls.set(calls.get() + 1);
+            let (sin, cos) = (TAU * t).sin_cos();
+            let tilt = radius_m / earth.a_m;
+            earth.surface_with_normal((axis + (right * cos + up * sin) * tilt).normalize())
+        };
+        let outline = Outline::new(earth, vec![ring]);
+        let found = outline.measures();
+        assert!(calls.get() < 2_500, "{radius_m} m: {} points", calls.get());
+        let relative = found.error_m2 / found.area_m2;
+        assert!(
+            relative < 2e-11 + 4e-8 / radius_m,
+            "{radius_m} m: {relative:e}"
+        );
+        let about_m2 = 0.5 * TAU * radius_m * radius_m;
+        assert!(
+            (found.area_m2 / about_m2 - 1.0).abs() < 0.05,
+            "{found:?} {about_m2}"
+        );
+        calls.set(0);
+        let cap = outline.bounding_cap().unwrap();
+        assert!(calls.get() < 25_000, "{radius_m} m: {} points", calls.get());
+        let cap_m = cap.radius_rad * earth.a_m;
+        // The mean normal of tiny regions is uncertain, and with it the centre.
+        let bound_m = 1.02 * radius_m + 0.02 / radius_m;
+        assert!(
+            cap_m > 0.98 * radius_m && cap_m < bound_m,
+            "{cap_m} {radius_m}"
+        );
+    }
 }
