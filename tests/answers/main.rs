@@ -8,7 +8,11 @@ mod countries;
 mod outlines;
 mod polygons;
 
-use globefill::{EdgeKind, FillMesh, Inside, LonLat, MeshOptions, Polygon, Region};
+use std::sync::OnceLock;
+
+use globefill::{
+    EdgeKind, FillMesh, Inside, LonLat, MeshOptions, Polygon, Region, countries::Dataset,
+};
 
 /// Points of the unit square, evenly spread and the same on every machine.
 pub fn spread(count: usize) -> impl Iterator<Item = (f64, f64)> {
@@ -42,4 +46,15 @@ pub fn region(edges: EdgeKind, inside: Inside, shell: &[(f64, f64)]) -> Region {
 /// The mesh of regions that are in order.
 pub fn build(regions: &[Region]) -> FillMesh {
     FillMesh::build(regions, &MeshOptions::default()).unwrap()
+}
+
+/// The countries at 1:50 million and their mesh, built once.
+pub fn countries_50m() -> &'static (Vec<Region>, FillMesh) {
+    static BUILT: OnceLock<(Vec<Region>, FillMesh)> = OnceLock::new();
+    BUILT.get_or_init(|| {
+        let countries = Dataset::Countries50m.countries().into_iter();
+        let regions: Vec<Region> = countries.map(|country| country.region).collect();
+        let mesh = build(&regions);
+        (regions, mesh)
+    })
 }

@@ -6,6 +6,7 @@ use std::{
 };
 
 use globefill::{Ellipsoid, Outline, glam::DVec3};
+use proptest::{prelude::*, test_runner::RngSeed};
 
 use crate::spread_positions;
 
@@ -214,5 +215,42 @@ fn loops_of_one_stretch_cost_little_however_small() {
             cap_m > 0.98 * radius_m && cap_m < bound_m,
             "{cap_m} {radius_m}"
         );
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, rng_seed: RngSeed::Fixed(1), ..ProptestConfig::default() })]
+
+    /// Circles cut into up to four stretches, each with a parametrisation of its own.
+    #[test]
+    fn errors_stay_below_what_is_said_of_them(
+        axis in prop::array::uniform3(-1.0..1.0_f64),
+        exponent in 0.0..6.0_f64,
+        is_inside_out: bool,
+        cuts in prop::collection::vec((0.01..0.99_f64, 0.3..3.0_f64), 1..5),
+    ) {
+        prop_assume!(DVec3::from(axis).length() > 0.1);
+        let (moon, axis) = (Ellipsoid::MOON, DVec3::from(axis).normalize());
+        let smaller_rad = 0.5 * PI * 10_f64.powf(-exponent);
+        let radius_rad = if is_inside_out { PI - smaller_rad } else { smaller_rad };
+        let (right, up) = axis.any_orthonormal_pair();
+        let mut cuts = cuts;
+        cuts.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let ends = cuts.iter().skip(1).map(|cut| cut.0).chain([cuts[0].0 + 1.0]);
+        let stretches = cuts.iter().zip(ends).map(|(&(first, power), last)| {
+            move |t: f64| {
+                let (sin, cos) = (TAU * (first + (last - first) * t.powf(power))).sin_cos();
+                let across = (right * cos + up * sin) * radius_rad.sin();
+                moon.surface_with_normal((axis * radius_rad.cos() + across).normalize())
+            }
+        });
+        let found = Outline::new(moon, stretches.collect()).measures();
+        let expected_m2 = 2.0 * TAU * (moon.a_m * (0.5 * radius_rad).sin()).powi(2);
+        let vector_m2 = axis * (0.5 * TAU * (moon.a_m * radius_rad.sin()).powi(2));
+        // A large area is itself only known to its rounding.
+        let error_m2 = (found.area_m2 - expected_m2).abs() - 1e-15 * expected_m2;
+        prop_assert!(error_m2 <= 0.5 * found.error_m2, "{error_m2} of {found:?}");
+        let error_m2 = found.vector_area_m2.distance(vector_m2);
+        prop_assert!(error_m2 <= 0.5 * found.error_m2, "{error_m2} of {found:?}");
     }
 }
