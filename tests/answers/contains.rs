@@ -199,6 +199,38 @@ fn geodesic_neighbours_share_no_point_of_their_border() {
 }
 
 #[test]
+fn a_belt_is_the_smaller_side_of_its_two_parallels() {
+    let belt = |inside, south: f64, north: f64| {
+        let corners = [
+            (-180.0, south),
+            (180.0, south),
+            (180.0, north),
+            (-180.0, north),
+        ];
+        region(EdgeKind::Straight, inside, &corners)
+    };
+    let mut lake = belt(Inside::Smaller, -30.0, 20.0);
+    let hole = [(10.0, 0.0), (20.0, 0.0), (15.0, 10.0)];
+    let hole = hole.map(|(lon, lat)| LonLat::new(lon, lat));
+    lake.polygons[0].holes.push(hole.to_vec());
+    let regions = [
+        belt(Inside::Smaller, -10.0, 10.0),
+        belt(Inside::LeftOfRing, -10.0, 10.0),
+        belt(Inside::Smaller, 40.0, 50.0),
+        // Twice 13 % lie beyond.
+        belt(Inside::Smaller, -60.0, 60.0),
+        belt(Inside::LeftOfRing, -60.0, 60.0),
+        lake,
+    ];
+    let mesh = build(&regions);
+    judge(&regions, &mesh, spread_positions(2_000));
+    let share = |fill| mesh.area_m2(fill) / 510_065_621_724_088.44;
+    assert!((share(0) - 0.172_895_253_885_784).abs() < 1e-12);
+    assert!((share(0) / share(1) - 1.0).abs() < 1e-12);
+    assert!((share(3) + share(4) - 1.0).abs() < 1e-12);
+}
+
+#[test]
 fn what_is_no_position_lies_nowhere() {
     let shell = [(0.0, 0.0), (10.0, 0.0), (5.0, 8.0)];
     let mesh = build(&[region(EdgeKind::Geodesic, Inside::Smaller, &shell)]);
