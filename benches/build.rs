@@ -4,7 +4,8 @@
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use globefill::{
-    FillMesh, MeshOptions, Region, countries::Dataset, geo_json::regions_from_geojson,
+    FillMesh, Locator, LonLat, MeshOptions, Region, countries::Dataset,
+    geo_json::regions_from_geojson,
 };
 
 fn regions(dataset: Dataset) -> Vec<Region> {
@@ -54,9 +55,36 @@ fn build(criterion: &mut Criterion) {
     });
 }
 
+fn answers(criterion: &mut Criterion) {
+    let regions = regions(Dataset::Countries50m);
+    let mesh = FillMesh::build(&regions, &MeshOptions::default()).expect("countries mesh");
+    criterion.bench_function("locator/50m", |bencher| {
+        bencher.iter(|| Locator::new(&mesh))
+    });
+    let locator = Locator::new(&mesh);
+    let mut turn = 0.0_f64;
+    criterion.bench_function("fills_at/50m", |bencher| {
+        bencher.iter(|| {
+            turn += 1.0;
+            let (x, y) = (
+                (turn * 0.754_877_666).fract(),
+                (turn * 0.569_840_291).fract(),
+            );
+            locator.fills_at(LonLat::new(360.0 * x - 180.0, 180.0 * y - 90.0))
+        });
+    });
+    criterion.bench_function("measures/50m", |bencher| {
+        bencher.iter(|| {
+            (0..mesh.fills.len() as u32)
+                .map(|fill| mesh.area_m2(fill))
+                .sum::<f64>()
+        });
+    });
+}
+
 criterion_group! {
     name = benches;
     config = Criterion::default().sample_size(20);
-    targets = build
+    targets = build, answers
 }
 criterion_main!(benches);

@@ -1,5 +1,7 @@
 //! The mesh that leaves the CPU: boundary arcs for walls, triangles for caps.
 
+mod measures;
+
 use glam::DVec3;
 
 use crate::{

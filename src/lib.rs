@@ -61,6 +61,12 @@
 //! where rasterisation and single precision end. Stored boundaries are within
 //! [`MeshOptions::tolerance_m`]; chords nearer to the eye than that allows are replaced by finer ones
 //! for the frame.
+//!
+//! # Answers
+//!
+//! What the pixels show can be asked for exactly, in double precision, from the true boundaries:
+//! [`Locator`] tells which fills contain a point, [`FillMesh::measures`] and
+//! [`FillMesh::bounding_cap`] tell area, centroid and extent, [`Outline`] the same of other curves.
 
 #[cfg(feature = "countries")]
 pub mod countries;
@@ -74,7 +80,9 @@ pub mod frame_stats;
 #[cfg(feature = "geojson")]
 pub mod geo_json;
 pub mod geodetic;
+pub mod locator;
 pub mod options;
+pub mod outline;
 pub mod region;
 pub mod renderer;
 pub mod repair;
@@ -100,9 +108,11 @@ pub use crate::{
     fill_mesh::{FillMesh, MeshOptions},
     frame_stats::FrameStats,
     geodetic::LonLat,
+    locator::Locator,
     options::{
         Camera, CountTechnique, DepthConvention, FillStyle, Frame, HeightRange, RendererOptions,
     },
+    outline::{Cap, Measures, Outline, Stretch},
     region::{EdgeKind, Inside, Polygon, Region, Ring},
     renderer::{MeshId, Renderer},
     repair::{Place, Repair, RepairKind},

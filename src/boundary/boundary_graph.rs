@@ -112,6 +112,15 @@ impl BoundaryGraph {
         }
     }
 
+    /// The graph once nothing more is inserted: without the tables by which to find things.
+    pub(crate) fn finished(self) -> Self {
+        Self {
+            nodes: self.nodes,
+            edges: self.edges,
+            ..Self::default()
+        }
+    }
+
     /// The node at a point, made if it is new.
     pub(crate) fn node(&mut self, point: LatticePoint) -> u32 {
         let point = point.canonical();

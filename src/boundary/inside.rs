@@ -36,8 +36,8 @@ impl Side {
 
 /// Directs a polygon's components by the inside rule.
 ///
-/// The component of the shell that encloses most is directed by `inside`. Other parts of the shell follow the
-/// even-odd rule. Of a hole, the side away from the shell is removed; a hole outside the shell, or
+/// The component of the shell that encloses most is directed by `inside`, other parts of the shell by
+/// the even-odd rule; `Smaller` turns them round if together they enclose more than half of the globe. Of a hole, the side away from the shell is removed; a hole outside the shell, or
 /// within another hole, removes nothing and is dropped. With no shell left, holes are cut out of
 /// the whole globe, their smaller side each.
 pub(crate) fn direct(
@@ -79,7 +79,12 @@ pub(crate) fn direct(
     if sides.len() == 1 {
         return gather(sides.into_iter());
     }
-    let kept = direct_others(ellipsoid, graph, &mut sides, main);
+    let mut kept = direct_others(ellipsoid, graph, &mut sides, main);
+    // A belt has two components, each with its smaller side beyond.
+    if inside == Inside::Smaller && shell_m2(authalic, &sides) > half_m2 {
+        sides[main].reverse();
+        kept = direct_others(ellipsoid, graph, &mut sides, main);
+    }
     let idle_holes = sides.iter().zip(&kept).filter(|(_, kept)| !**kept);
     let idle_holes = idle_holes.map(|(side, _)| side.component.ring).collect();
     let kept = sides.into_iter().zip(kept).filter(|(_, kept)| *kept);
@@ -87,6 +92,13 @@ pub(crate) fn direct(
         idle_holes,
         ..gather(kept.map(|(side, _)| side))
     }
+}
+
+/// Area inside the shell, holes not counted.
+fn shell_m2(authalic: &Authalic, sides: &[Side]) -> f64 {
+    let shell = sides.iter().filter(|side| !side.component.is_hole());
+    let enclosed = shell.map(|side| side.enclosed);
+    authalic.left_m2(enclosed.fold(Enclosed::default(), Enclosed::plus))
 }
 
 fn gather(sides: impl Iterator<Item = Side>) -> Boundary {
@@ -109,11 +121,14 @@ fn direct_others(
         .iter()
         .enumerate()
         .flat_map(|(label, side)| side.component.edges().map(move |edge| (edge, label as u32)));
-    let index = MeridianIndex::new(ellipsoid, graph, labelled);
+    let index = MeridianIndex::new(graph, labelled);
     // Per component those that separate a point of it from the north pole.
     let separating: Vec<Vec<u32>> = sides
         .iter()
-        .map(|side| index.separating(point_on(graph, side.component.edges()), |_| {}))
+        .map(|side| {
+            let point = point_on(graph, side.component.edges());
+            index.separating(ellipsoid, graph, point, |_| {})
+        })
         .collect();
     let separates =
         |other: usize, from: usize| separating[from].binary_search(&(other as u32)).is_ok();

@@ -9,9 +9,8 @@ use crate::{
 };
 
 /// Labelled edges sorted into columns of longitude.
-pub(crate) struct MeridianIndex<'a> {
-    ellipsoid: &'a Ellipsoid,
-    graph: &'a BoundaryGraph,
+#[derive(Debug)]
+pub(crate) struct MeridianIndex {
     columns: Columns,
     /// Per column the end of its run in `entries`.
     ends: Vec<u32>,
@@ -21,10 +20,9 @@ pub(crate) struct MeridianIndex<'a> {
     polar: Vec<(i64, u32)>,
 }
 
-impl<'a> MeridianIndex<'a> {
+impl MeridianIndex {
     pub(crate) fn new(
-        ellipsoid: &'a Ellipsoid,
-        graph: &'a BoundaryGraph,
+        graph: &BoundaryGraph,
         labelled: impl Iterator<Item = (DirectedEdge, u32)>,
     ) -> Self {
         let labelled: Vec<(DirectedEdge, u32)> = labelled.collect();
@@ -56,8 +54,6 @@ impl<'a> MeridianIndex<'a> {
             polar.extend(tips.map(|tip| (wrap(tip.lon), label)));
         }
         Self {
-            ellipsoid,
-            graph,
             columns,
             ends,
             entries,
@@ -75,19 +71,24 @@ impl<'a> MeridianIndex<'a> {
         &self.entries[first as usize..self.ends[column] as usize]
     }
 
-    /// Labels of the boundaries that separate `point` (not a pole) from the neighbourhood of the
+    /// Labels of the boundaries that separate `point` (not the north pole) from the neighbourhood of the
     /// north pole just beyond the meridian of 180°, sorted: those crossed an odd number of times
     /// on the way along the meridian and round the pole. `on_node` is called with the label of
-    /// every edge that ends at the point itself: what is said about those is void.
-    pub(crate) fn separating(&self, point: LatticePoint, mut on_node: impl FnMut(u32)) -> Vec<u32> {
+    /// every edge that ends at the point itself: those are passed by on the north side, and a little
+    /// to the east, as are edges that the point lies on.
+    pub(crate) fn separating(
+        &self,
+        ellipsoid: &Ellipsoid,
+        graph: &BoundaryGraph,
+        point: LatticePoint,
+        mut on_node: impl FnMut(u32),
+    ) -> Vec<u32> {
         let mut crossed = Vec::new();
         for &(edge, label) in self.column_at(point.lon) {
-            let edge = &self.graph.edges[edge as usize];
-            if self.graph.nodes[edge.from as usize] == point
-                || self.graph.nodes[edge.to as usize] == point
-            {
+            let edge = &graph.edges[edge as usize];
+            if graph.nodes[edge.from as usize] == point || graph.nodes[edge.to as usize] == point {
                 on_node(label);
-            } else if passes_north_of(self.ellipsoid, edge, point) {
+            } else if passes_north_of(ellipsoid, edge, point) {
                 crossed.push(label);
             }
         }
@@ -104,6 +105,7 @@ impl<'a> MeridianIndex<'a> {
 }
 
 /// Columns of longitude in which about equally many edges begin, however unevenly they lie.
+#[derive(Debug)]
 struct Columns {
     /// Where columns begin, ascending; the last one ends where the first begins.
     starts: Vec<i64>,
@@ -194,10 +196,12 @@ mod tests {
                     );
                 }
             }
-            let index = MeridianIndex::new(&Ellipsoid::WGS84, &graph, edges.iter().copied());
+            let index = MeridianIndex::new(&graph, edges.iter().copied());
             let separating = |lon, lat| {
                 let point = LatticePoint::nearest(LonLat::new(lon, lat)).canonical();
-                index.separating(point, |_| panic!("not on a node"))
+                index.separating(&Ellipsoid::WGS84, &graph, point, |_| {
+                    panic!("not on a node")
+                })
             };
             assert_eq!(separating(180.0, 10.0), [0, 1]);
             assert_eq!(separating(-171.0, 1.0), [0, 1]);

@@ -146,7 +146,7 @@ fn contained(ellipsoid: &Ellipsoid, graph: &BoundaryGraph, pieces: &[Boundary]) 
             .flatten()
             .map(move |&edge| (edge, piece as u32))
     });
-    let index = MeridianIndex::new(ellipsoid, graph, labelled);
+    let index = MeridianIndex::new(graph, labelled);
     let has_pole = |piece: u32| {
         let boundary = &pieces[piece as usize];
         boundary.loops.is_empty() || boundary.enclosed.has_north_pole()
@@ -163,7 +163,8 @@ fn contained(ellipsoid: &Ellipsoid, graph: &BoundaryGraph, pieces: &[Boundary]) 
             boundary.loops.iter().flat_map(move |edges| {
                 let mut void = vec![own];
                 let point = point_on(graph, edges.iter().copied());
-                let separating = index.separating(point, |label| void.push(label));
+                let separating =
+                    index.separating(ellipsoid, graph, point, |label| void.push(label));
                 let outside_pole = separating.iter().filter(|&&other| !has_pole(other));
                 let around_pole = polar
                     .iter()
