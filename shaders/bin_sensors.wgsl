@@ -118,9 +118,10 @@ fn cs_bin_tiles(@builtin(global_invocation_id) id: vec3<u32>) {
     tile.covering = block.covering;
     let listed = block.partly != UNLISTED;
     let asked = select(sight.counts.x, block.partly, listed);
-    if tile.farthest > 0.0 && asked > 0u {
+    if tile.farthest > 0.0 {
         let ball = ball_of(TILE * at, min(TILE * (at + 1u), sight.size.xy), tile);
         let place = place_of(ball.xyz, ball.w);
+        tile.strays = select(0u, 1u, strays(place, ball.w));
         var asking = Cursor(block.page, 0u);
         var list: Cursor;
         for (var k = 0u; k < asked; k += 1u) {

@@ -2,9 +2,9 @@
 
 struct Answer {
     pixel: vec2<u32>,
-    // Written here: the number of sensors, and whether the pixel shows the surface.
+    // Written here: the number of sensors.
     covering: u32,
-    surface: u32,
+    unused: u32,
 }
 
 @group(1) @binding(0) var<storage, read_write> answer: Answer;
@@ -16,10 +16,10 @@ fn cs_count() {
     if !is_sky(depth) {
         let ray = ray_at(vec2<f32>(answer.pixel) + sample_px(0u));
         let place = place_of(ray * distance_of(depth), 0.0);
-        for (var sensor = 0u; sensor < sight.counts.x; sensor += 1u) {
+        let asked = select(sight.counts.x, 0u, strays(place, 0.0));
+        for (var sensor = 0u; sensor < asked; sensor += 1u) {
             covering += select(0u, 1u, covers(sensor, place));
         }
     }
     answer.covering = covering;
-    answer.surface = select(1u, 0u, is_sky(depth));
 }

@@ -43,12 +43,16 @@ fn sums_at(pixel: vec2<u32>, sample: u32, block: u32) -> Sums {
     var sums = Sums(lister.weight, lister.covering);
     if lister.partly == UNLISTED {
         lister = blocks[block];
+        lister.strays = 1u;
     }
     let listed = lister.partly != UNLISTED;
     let asked = select(sight.counts.x, lister.partly, listed);
-    if asked > 0u {
+    if asked + lister.strays > 0u {
         let ray = ray_at(vec2<f32>(pixel) + sample_px(sample));
         let place = place_of(ray * distance_of(depth), 0.0);
+        if strays(place, 0.0) {
+            discard;
+        }
         var asking = Cursor(lister.page, 0u);
         for (var k = 0u; k < asked; k += 1u) {
             let sensor = next_sensor(&asking, listed);

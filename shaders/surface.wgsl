@@ -24,7 +24,7 @@ struct Sight {
     blocks: vec4<u32>,
     // Sensors, pages, colours of the coverage, whether gaps are coloured.
     counts: vec4<u32>,
-    // x: optical depth of one unit of weight.
+    // x: optical depth of one unit of weight; lowest and highest surface, see strays.
     weight: vec4<f32>,
 }
 
@@ -108,6 +108,13 @@ fn place_of(from_eye: vec3<f32>, radius: f32) -> Place {
         root_over(place, normal, level + 1.05 * radius, farther + spread),
     );
     return place;
+}
+
+// Whether something within `radius` of a place lies so far above or below the host's surface that it is
+// none of it: a satellite, a sky dome. A generous hundredth of the distance is for coarse meshes.
+fn strays(place: Place, radius: f32) -> bool {
+    let slack = 0.01 * length(place.from_eye) - radius;
+    return place.height < sight.weight.y - slack || place.height > sight.weight.z + slack;
 }
 
 // sqrt(outside), less the eye's: of a point `level` above the ellipsoid, whose outside is `farther`

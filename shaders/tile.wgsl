@@ -8,6 +8,8 @@ struct Tile {
     partly: u32,
     // The first page of its list.
     page: u32,
+    // Whether some of what its pixels show may stray from the surface.
+    strays: u32,
     // Nearest and farthest depth of its surface in distances along the view axis; 0 if there is only sky.
     nearest: f32,
     farthest: f32,

@@ -338,3 +338,22 @@ fn read_back(gpu: &Gpu, renderer: &Renderer, view: &View, pixels: &[UVec2]) -> V
         .map(|four| u32::from_le_bytes(four.try_into().expect("four bytes")))
         .collect()
 }
+
+#[test]
+fn what_is_no_surface_is_left_out() {
+    let Some(gpu) = gpu() else { return };
+    // A wall of satellites 100 km up, of which the host says nothing.
+    let pose = Pose::nadir(10.0, 20.0, 2e6);
+    let high = surface(pose, 1, Terrain::Plateau { height_m: 1e5 });
+    let watchers = shell(100);
+    let mut painter = CountPainter::new(gpu, &watchers, &high);
+    let mut view = View::default();
+    let (drawn, _) = painter.draw(gpu, &mut view, &high);
+    assert_eq!(judge_counts(&watchers, &high, &drawn).wrong, 0);
+    let mut unexpected = high;
+    unexpected.terrain = Terrain::Bare;
+    let (drawn, _) = painter.draw(gpu, &mut view, &unexpected);
+    assert!(drawn.iter().all(|&count| count == u32::MAX));
+    let read = read_back(gpu, &painter.renderer, &view, &[UVec2::new(80, 45)]);
+    assert_eq!(read, [0]);
+}

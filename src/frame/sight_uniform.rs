@@ -9,6 +9,9 @@ const TILE: u32 = 8;
 /// Tiles across a block; as in tile.wgsl.
 const BLOCK: u32 = 8;
 
+/// What lies farther than this above or below the host's surface is none of it, metres.
+const SLACK_M: f64 = 1000.0;
+
 /// `Sight` of surface.wgsl; see there.
 #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
@@ -49,6 +52,7 @@ impl SightUniform {
         let ratio = ellipsoid.a_m / ellipsoid.b_m;
         let eye_gradient = reference.scaled(reference.eye_ecef_m) * (2.0 / ellipsoid.a_m);
         let foot_gradient = reference.scaled(reference.foot_ecef_m);
+        let (lowest_m, highest_m) = (sight.surface_m.0 - SLACK_M, sight.surface_m.1 + SLACK_M);
         let tiles = divided(size_px, TILE);
         let counted = |grid: UVec2| [grid.x, grid.y, grid.element_product(), 0];
         Self {
@@ -70,7 +74,7 @@ impl SightUniform {
             tiles: counted(tiles),
             blocks: counted(divided(tiles, BLOCK)),
             counts: [0; 4],
-            weight: [0.0; 4],
+            weight: [0.0, lowest_m as f32, highest_m as f32, 0.0],
         }
     }
 }
