@@ -49,6 +49,44 @@
 //! # }
 //! ```
 //!
+//! # Sensors
+//!
+//! Footprints of sensors are not meshed. [`Renderer::sensors_mut`] is a [`SensorSet`]: put
+//! [`Sensor`]s in, move them with [`SensorSet::set_pose`] as often as every frame, and the next
+//! `prepare` uploads the records that changed, 128 bytes each. `count` sorts sensors into tiles of the
+//! picture, `resolve` asks at each pixel the few whose edge is near: the frame shows this frame's
+//! footprints, any number of them, over each other in any order.
+//!
+//! ```
+//! use globefill::{
+//!     CoverageColors, Ellipsoid, FieldOfView, LonLat, Pose, Sensor, SensorDisplay, SensorSet,
+//!     SensorStyle,
+//! };
+//!
+//! # fn main() -> Result<(), globefill::SensorError> {
+//! let wgs84 = Ellipsoid::WGS84;
+//! let pose = |lon_deg| Pose::nadir(&wgs84, wgs84.ecef(LonLat::new(lon_deg, 52.0), 550e3));
+//! let mut sensors = SensorSet::new(wgs84);                  // a renderer has one: sensors_mut()
+//! let cone = FieldOfView::conic(45_f64.to_radians())?;
+//! let id = sensors.insert(Sensor::new(pose(13.0), cone), SensorStyle::default())?;
+//! sensors.set_pose(id, pose(13.1))?;                        // every frame
+//!
+//! // How many sensors see each point, instead of footprints:
+//! let ramp = CoverageColors::ramp([0.8, 0.1, 0.1, 0.6], &[[0.2, 0.2, 0.6, 0.4], [1.0; 4]], 10)?;
+//! sensors.set_display(SensorDisplay::Coverage(ramp));
+//!
+//! // And the exact answer on the CPU:
+//! assert_eq!(sensors.covering(LonLat::new(13.0, 52.0), 0.0).next(), Some(id));
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! A footprint means one of two things, see [`Extrusion`]: what the sensor sees of the bare ellipsoid,
+//! carried up along the normal as on a map; or what it sees from its apex, mountains included.
+//!
+//! Fills keep order and identity: the greater [`FillStyle::z_index`] is on top. Sensors are above all
+//! fills and commute: see [`SensorDisplay`] for what their colours mean.
+//!
 //! # What "inside" means
 //!
 //! A region's [`Inside`] says on which side of a shell its inside lies, its [`EdgeKind`] how vertices

@@ -341,7 +341,7 @@ fn any_watcher(random: &mut Random, height_m: f64) -> Watcher {
         },
         2 => Optics::Rectangle {
             right_rad: width_rad.min(1.5),
-            up_rad: (width_rad * next()).max(0.001).min(1.5),
+            up_rad: (width_rad * next()).clamp(0.001, 1.5),
         },
         _ => {
             let reach = width_rad.min(1.4).tan();
