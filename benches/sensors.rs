@@ -53,6 +53,16 @@ fn change(criterion: &mut Criterion) {
                 }
             });
         });
+        criterion.bench_function(&format!("remove and insert/1000 {name}"), |bencher| {
+            let mut sensors = SensorSet::default();
+            let mut ids = fill(&mut sensors, &field_of_view);
+            bencher.iter(|| {
+                for id in ids.drain(..) {
+                    sensors.remove(id).expect("it is there");
+                }
+                ids = fill(&mut sensors, &field_of_view);
+            });
+        });
         criterion.bench_function(&format!("covering/1000 {name}"), |bencher| {
             bencher.iter(|| sensors.covering(LonLat::new(10.0, 50.0), 0.0).count());
         });

@@ -195,6 +195,7 @@ impl Renderer {
         view: &mut View,
         frame: &Frame,
     ) -> Result<FrameStats, RendererError> {
+        self.check_sensors(frame.size_px)?;
         let mut stats = self.prepare_fills(queue, view, frame)?;
         self.prepare_sensors(queue, view, frame, &mut stats)?;
         Ok(stats)

@@ -252,6 +252,14 @@ impl SensorSet {
         self.changed
     }
 
+    /// Number of visible sensors.
+    pub(crate) fn visible_count(&self) -> usize {
+        self.entries
+            .values()
+            .filter(|entry| entry.style.visible)
+            .count()
+    }
+
     /// The sensor at a place in the order of the set.
     pub(crate) fn entry(&self, index: usize) -> &Entry {
         &self.entries[index]

@@ -5,7 +5,7 @@ use glam::{DMat3, DVec3, UVec2, Vec4Swizzles as _};
 use crate::{frame::reference::Reference, frame::sight::Sight, options::DepthConvention};
 
 /// Pixels across a tile; as in tile.wgsl.
-const TILE: u32 = 8;
+pub(crate) const TILE: u32 = 8;
 /// Tiles across a block; as in tile.wgsl.
 const BLOCK: u32 = 8;
 
@@ -80,7 +80,7 @@ impl SightUniform {
 }
 
 /// How many squares of `side` cover a grid, across and down.
-fn divided(grid: UVec2, side: u32) -> UVec2 {
+pub(crate) fn divided(grid: UVec2, side: u32) -> UVec2 {
     UVec2::new(grid.x.div_ceil(side), grid.y.div_ceil(side))
 }
 

@@ -1,9 +1,11 @@
 //! What a view keeps of the sensors: their records, the tiles, and what is bound.
 
+use glam::UVec2;
+
 use crate::{
     frame::reference::Reference,
     frame::sensor_records::SensorRecords,
-    frame::sight_uniform::SightUniform,
+    frame::sight_uniform::{SightUniform, TILE, divided},
     gpu::sensor_pipelines::{SensorPipelines, Shown},
     gpu::stream_buffer::StreamBuffer,
     options::Frame,
@@ -15,6 +17,8 @@ const PAGE_ENTRIES: usize = 32;
 const PAGE_BYTES: u64 = 4 * (PAGE_ENTRIES as u64 + 1);
 /// Most bytes of all pages.
 const MOST_PAGE_BYTES: u64 = 64 << 20;
+/// Invocations of a workgroup of bin_sensors.wgsl.
+pub(crate) const WORKGROUP: u32 = 64;
 /// Bytes of `Tile` of tile.wgsl.
 const TILE_BYTES: u64 = 48;
 
@@ -161,7 +165,7 @@ impl SensorView {
         let counts = [self.tile_count, self.block_count, self.tile_count];
         for (pipeline, count) in pipelines.binning.iter().zip(counts) {
             pass.set_pipeline(pipeline);
-            pass.dispatch_workgroups(count.div_ceil(64), 1, 1);
+            pass.dispatch_workgroups(count.div_ceil(WORKGROUP), 1, 1);
         }
     }
 
@@ -226,6 +230,11 @@ impl SensorView {
             pass.dispatch_workgroups(1, 1, 1);
         }
     }
+}
+
+/// Most workgroups that binning a picture of this size dispatches.
+pub(crate) fn workgroups(size_px: UVec2) -> u32 {
+    divided(size_px, TILE).element_product().div_ceil(WORKGROUP)
 }
 
 /// How many tiles, blocks and pages there are.

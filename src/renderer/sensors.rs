@@ -12,13 +12,49 @@ use crate::{
     frame::sight_uniform::SightUniform,
     frame_stats::FrameStats,
     gpu::sensor_pipelines::{SensorPipelines, Shown},
-    gpu::sensor_view::{SensorFrame, SensorView},
+    gpu::sensor_view::{SensorFrame, SensorView, WORKGROUP, workgroups},
     options::Frame,
     sensor_set::SensorDisplay,
     view::View,
 };
 
+/// Storage buffers that the binning binds.
+const STORAGE_BUFFERS: u32 = 7;
+
 impl Renderer {
+    /// Whether there is anything to draw: footprints, or where they are missing.
+    fn shows_sensors(&self) -> bool {
+        let gaps = match self.sensors.display() {
+            SensorDisplay::Blended => false,
+            SensorDisplay::Coverage(colors) => colors.colors_gaps(),
+        };
+        gaps || self.sensors.visible_count() > 0
+    }
+
+    /// Whether the device can draw the sensors, if any, in a picture of this size.
+    pub(super) fn check_sensors(&self, size_px: UVec2) -> Result<(), RendererError> {
+        if !self.shows_sensors() {
+            return Ok(());
+        }
+        let limits = self.device.limits();
+        if limits.max_compute_invocations_per_workgroup < WORKGROUP
+            || limits.max_storage_buffers_per_shader_stage < STORAGE_BUFFERS
+        {
+            return Err(RendererError::Unsupported(
+                "sensors need compute shaders with seven storage buffers",
+            ));
+        }
+        if workgroups(size_px) > limits.max_compute_workgroups_per_dimension {
+            return Err(RendererError::InvalidFrame("size_px"));
+        }
+        let sensors = self.sensors.len();
+        let most = limits.max_storage_buffer_binding_size as usize / size_of::<SensorRecord>();
+        if sensors > most {
+            return Err(RendererError::TooManySensors { sensors, most });
+        }
+        Ok(())
+    }
+
     /// Encodes and uploads the sensors that changed, or all if the camera did, and adds to the stats.
     pub(super) fn prepare_sensors(
         &mut self,
@@ -28,21 +64,14 @@ impl Renderer {
         stats: &mut FrameStats,
     ) -> Result<(), RendererError> {
         let set = &self.sensors;
-        let visible = set.iter().filter(|(.., style)| style.visible).count();
-        let (shown, gaps) = match set.display() {
-            SensorDisplay::Blended => (Shown::Blended, false),
-            SensorDisplay::Coverage(colors) => (Shown::Coverage, colors.colors_gaps()),
-        };
-        if visible == 0 && !gaps {
+        if !self.shows_sensors() {
             view.sensors = None;
             return Ok(());
         }
-        let most = self.device.limits().max_storage_buffer_binding_size as usize
-            / size_of::<SensorRecord>();
-        if set.len() > most {
-            let sensors = set.len();
-            return Err(RendererError::TooManySensors { sensors, most });
-        }
+        let shown = match set.display() {
+            SensorDisplay::Blended => Shown::Blended,
+            SensorDisplay::Coverage(_) => Shown::Coverage,
+        };
         let pipelines = self
             .sensor_pipelines
             .get_or_insert_with(|| SensorPipelines::new(&self.device, self.options));
@@ -62,7 +91,7 @@ impl Renderer {
             };
             stats.upload_bytes += sensors.prepare(&self.device, queue, pipelines, with);
         }
-        stats.sensors = visible as u32;
+        stats.sensors = set.visible_count() as u32;
         stats.dispatches = pipelines.binning.len() as u32;
         stats.draws += 1;
         stats.vertices += 4 * u64::from(sensors.block_count);
