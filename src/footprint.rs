@@ -1,0 +1,110 @@
+//! The exact outline of what a sensor sees of the ellipsoid.
+//!
+//! # Definitions
+//!
+//! A **footprint** is the set of points of the ellipsoid, at height 0, that [`Sensor::covers`]: those
+//! in the field of view, on the near side of the **limb** (the curve on which lines of sight are
+//! tangent to the ellipsoid: S·M·P = 1 for the apex S, with M = diag(a⁻², a⁻², b⁻²)), from which the
+//! sensor stands at least its **minimum elevation** above the plane at right angles to the geodetic
+//! normal. A minimum elevation of 0 is the limb; less says nothing. The **horizon** is whichever of
+//! the two bounds what is seen at all; it is one closed curve round the foot point of the apex. The
+//! boundary is made of **loops**, each a chain of smooth **edges** that share their ends bit for bit,
+//! with the footprint on the left: counter-clockwise seen from above, clockwise round holes. A
+//! footprint without loops is empty: the apex lies outside the ellipsoid, so what it sees always ends.
+//!
+//! # Accuracy
+//!
+//! Divided by the radii, the ellipsoid is the unit sphere, where the limb and sides are circles; cones
+//! are hit tests of their rays; curves of elevation are solved for at each parameter. Corners on the
+//! limb are roots between the extremes of a Fourier series of degree 2, exact for both cones and planes.
+
+mod arc_set;
+mod bracketed_root;
+mod course;
+mod edge;
+mod horizon;
+mod outline;
+mod pyramid;
+mod rim;
+mod scaled_apex;
+mod trig_series;
+
+pub use self::edge::FootprintEdge;
+use self::{horizon::Horizon, outline::loops, rim::Rim};
+use crate::{ellipsoid::Ellipsoid, error::SensorError, geodetic::LonLat, sensor::Sensor};
+
+/// What ends a footprint along an edge.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum FootprintBound {
+    /// The cone of the half-angle.
+    OuterCone,
+    /// The inner cone of an annular field of view.
+    InnerCone,
+    /// The side of a field of view with corners from this corner to the next, counted as they were
+    /// given; of a rectangular one: up, left, down, right.
+    Side(usize),
+    /// The limb.
+    Limb,
+    /// The least elevation.
+    MinElevation,
+}
+
+/// A closed curve of a footprint's boundary.
+#[derive(Clone, Debug)]
+pub struct FootprintLoop {
+    /// In turn; each ends where the next starts, the last where the first does.
+    pub edges: Vec<FootprintEdge>,
+}
+
+/// What a sensor sees of the ellipsoid, by its outline. Made by [`Sensor::footprint`].
+#[derive(Clone, Debug)]
+pub struct Footprint {
+    /// The whole boundary, in no order; none if nothing is seen.
+    pub loops: Vec<FootprintLoop>,
+    sensor: Sensor,
+    ellipsoid: Ellipsoid,
+}
+
+impl Footprint {
+    /// Whether the sensor sees nothing of the ellipsoid.
+    pub fn is_empty(&self) -> bool {
+        self.loops.is_empty()
+    }
+
+    /// Whether a point of the ellipsoid belongs to it: [`Sensor::covers`] at height 0.
+    pub fn contains(&self, position: LonLat) -> bool {
+        self.sensor
+            .aim(&self.ellipsoid)
+            .is_ok_and(|aim| aim.covers(position, 0.0))
+    }
+
+    /// The sensor it is of.
+    pub fn sensor(&self) -> &Sensor {
+        &self.sensor
+    }
+
+    /// The ellipsoid it lies on.
+    pub fn ellipsoid(&self) -> &Ellipsoid {
+        &self.ellipsoid
+    }
+}
+
+impl Sensor {
+    /// The exact outline of what the sensor sees of `ellipsoid`. Its [`Extrusion`](crate::Extrusion)
+    /// is of no account at height 0.
+    ///
+    /// # Errors
+    /// [`SensorError`] if the sensor cannot be.
+    pub fn footprint(&self, ellipsoid: &Ellipsoid) -> Result<Footprint, SensorError> {
+        let aim = self.aim(ellipsoid)?;
+        let loops = match Horizon::new(&aim, self.min_elevation_rad) {
+            Some(horizon) => loops(&horizon, &Rim::of(&aim, &horizon)),
+            None => Vec::new(),
+        };
+        Ok(Footprint {
+            loops,
+            sensor: self.clone(),
+            ellipsoid: *ellipsoid,
+        })
+    }
+}
