@@ -2,10 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::{
-    bracketed_root::bracketed_root,
-    trig_series::sign_changes,
-};
+use super::{bracketed_root::bracketed_root, trig_series::sign_changes};
 
 /// Parts of a closed curve over an angle, radians, 0 … 2π.
 #[derive(Clone, Debug, PartialEq)]

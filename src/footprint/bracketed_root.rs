@@ -5,11 +5,7 @@
 ///
 /// Chandrupatla's method (Adv. Eng. Softw. 28, 1997): inverse quadratic steps where they can be
 /// trusted, else bisection, so that it ends whatever the function.
-pub(super) fn bracketed_root(
-    low: (f64, f64),
-    high: (f64, f64),
-    value: impl Fn(f64) -> f64,
-) -> f64 {
+pub(super) fn bracketed_root(low: (f64, f64), high: (f64, f64), value: impl Fn(f64) -> f64) -> f64 {
     let ((mut a, mut at_a), (mut b, mut at_b)) = (low, high);
     let mut fraction = 0.5;
     for _ in 0..128 {

@@ -71,51 +71,63 @@ pub(super) struct ConeArc {
     apex: ScaledApex,
     /// Scaled directions: D = x cos ψ + y sin ψ + z.
     axes: [DVec3; 3],
-    from_rad: f64,
-    sweep_rad: f64,
-    /// Whether both ends are directions of tangents.
-    ends_on_limb: bool,
+    /// ψ at both ends, radians.
+    ends_rad: [f64; 2],
+    /// [`ScaledApex::hit_form`] of D at both ends.
+    end_forms: [f64; 2],
+    /// 0 if ψ is even in t, 1 if it starts and stops at rest.
+    ease: f64,
 }
 
 impl ConeArc {
+    /// From an angle over a sweep, radians; whether both ends are directions of tangents.
     pub(super) fn new(
         apex: ScaledApex,
         axes: [DVec3; 3],
-        from_rad: f64,
-        sweep_rad: f64,
+        (from_rad, sweep_rad): (f64, f64),
         ends_on_limb: bool,
     ) -> Self {
-        Self {
+        let mut arc = Self {
             axes: axes.map(|axis| axis / apex.radii_m),
             apex,
-            from_rad,
-            sweep_rad,
-            ends_on_limb,
+            ends_rad: [from_rad, from_rad + sweep_rad],
+            end_forms: [0.0; 2],
+            ease: 1.0,
+        };
+        if !ends_on_limb {
+            arc.end_forms = arc.ends_rad.map(|end_rad| arc.form(end_rad));
+            let least = arc.end_forms[0].min(arc.end_forms[1]).max(0.0);
+            let middle = arc.form(from_rad + 0.5 * sweep_rad);
+            // Towards the limb a hit moves as the root of this against the angle. With this ease it
+            // moves as fast at the ends as in the middle.
+            arc.ease = 1.0 - (least / middle).sqrt().min(1.0);
         }
+        arc
     }
 
     fn unit(&self, t: f64) -> DVec3 {
-        if !self.ends_on_limb {
-            let scaled = self.scaled(self.from_rad + t * self.sweep_rad);
-            return self
-                .apex
-                .hit_at(scaled, self.apex.hit_form(scaled, scaled));
-        }
-        // Towards the limb a hit moves with the square root of the angle: as fast in t everywhere if
-        // the angle follows sin²; and what the hit depends on is counted from the tangent at the end,
-        // where it is 0, since the root of its rounding alone would be centimetres.
         let (sin, cos) = (FRAC_PI_2 * t).sin_cos();
-        let (end_rad, offset_rad) = if t < 0.5 {
-            (self.from_rad, self.sweep_rad * sin * sin)
+        let eased = |t: f64, root: f64| (1.0 - self.ease) * t + self.ease * root * root;
+        let sweep_rad = self.ends_rad[1] - self.ends_rad[0];
+        let (end, offset_rad) = if t < 0.5 {
+            (0, sweep_rad * eased(t, sin))
         } else {
-            (self.from_rad + self.sweep_rad, -self.sweep_rad * cos * cos)
+            (1, -sweep_rad * eased(1.0 - t, cos))
         };
-        let tangent = self.scaled(end_rad);
-        let sin_half = (0.5 * offset_rad).sin();
-        let (sin, cos) = (end_rad + 0.5 * offset_rad).sin_cos();
-        let change = (self.axes[1] * cos - self.axes[0] * sin) * (2.0 * sin_half);
-        let hit_form = 2.0 * self.apex.hit_form(tangent, change) + self.apex.hit_form(change, change);
-        self.apex.hit_at(tangent + change, hit_form)
+        // What the hit depends on is counted from the end, where it is known: the root of its rounding
+        // alone would be centimetres at the limb.
+        let start = self.scaled(self.ends_rad[end]);
+        let (sin, cos) = (self.ends_rad[end] + 0.5 * offset_rad).sin_cos();
+        let change = (self.axes[1] * cos - self.axes[0] * sin) * (2.0 * (0.5 * offset_rad).sin());
+        let hit_form = self.end_forms[end]
+            + 2.0 * self.apex.hit_form(start, change)
+            + self.apex.hit_form(change, change);
+        self.apex.hit_at(start + change, hit_form)
+    }
+
+    fn form(&self, angle_rad: f64) -> f64 {
+        let scaled = self.scaled(angle_rad);
+        self.apex.hit_form(scaled, scaled)
     }
 
     fn scaled(&self, angle_rad: f64) -> DVec3 {

@@ -88,10 +88,7 @@ impl Horizon {
             let (sin, cos) = turn_rad.sin_cos();
             self.middle * cos + across * sin
         };
-        let (up, side) = (
-            self.apex.apex.dot(self.middle),
-            self.apex.apex.dot(across),
-        );
+        let (up, side) = (self.apex.apex.dot(self.middle), self.apex.apex.dot(across));
         let beyond = (up * up + side * side - 1.0).max(0.0).sqrt();
         let limb_rad = side.atan2(up) + beyond.atan2(1.0);
         let above = |turn_rad: f64| self.elevation_rad(unit(turn_rad)) - least_rad;
@@ -109,9 +106,7 @@ impl Horizon {
     fn elevation_rad(&self, unit: DVec3) -> f64 {
         let (normal, to_apex) = (unit / self.apex.radii_m, -self.apex.line_m(unit));
         // Of an arc tangent: the arc sine is blind near the zenith.
-        normal
-            .dot(to_apex)
-            .atan2(normal.cross(to_apex).length())
+        normal.dot(to_apex).atan2(normal.cross(to_apex).length())
     }
 
     /// How far inside the horizon an ECEF direction meets the ground; negative outside.
@@ -136,7 +131,54 @@ impl Horizon {
     pub(super) fn sample_lines_m(&self) -> Vec<DVec3> {
         let count = if self.is_limb() { 8 } else { 40 };
         (0..count)
-            .map(|step| self.apex.line_m(self.unit(TAU * step as f64 / count as f64)))
+            .map(|step| {
+                self.apex
+                    .line_m(self.unit(TAU * step as f64 / count as f64))
+            })
             .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        ellipsoid::Ellipsoid,
+        field_of_view::FieldOfView,
+        geodetic::LonLat,
+        sensor::{Pose, Sensor},
+    };
+
+    /// The curve of an elevation is one value for each direction only if this holds.
+    #[test]
+    fn the_elevation_falls_from_the_foot_point_to_the_limb() {
+        for flattening in [0.0, 0.02, -0.02] {
+            let ellipsoid = Ellipsoid {
+                a_m: 6.4e6,
+                b_m: 6.4e6 * (1.0 - flattening),
+            };
+            for (lat_deg, height_m) in [0.0, 20.0, 45.0, 80.0, 90.0]
+                .into_iter()
+                .flat_map(|lat_deg| [1e2, 1e4, 1e6, 3e7, 1e9].map(|height_m| (lat_deg, height_m)))
+            {
+                let apex_m = ellipsoid.ecef(LonLat::new(7.0, lat_deg), height_m);
+                let pose = Pose::nadir(&ellipsoid, apex_m);
+                let sensor = Sensor::new(pose, FieldOfView::conic(1.0).unwrap());
+                let aim = sensor.aim(&ellipsoid).unwrap();
+                let horizon = Horizon::new(&aim, Some(1e-9)).unwrap();
+                for step in 0..16 {
+                    let angle_rad = TAU * f64::from(step) / 16.0;
+                    let limb = horizon.unit(angle_rad);
+                    let turn_rad = limb.angle_between(horizon.middle);
+                    let across = (limb - horizon.middle * limb.dot(horizon.middle)).normalize();
+                    let elevations = (0..=100).map(|part| {
+                        let (sin, cos) = (turn_rad * f64::from(part) / 100.0).sin_cos();
+                        horizon.elevation_rad(horizon.middle * cos + across * sin)
+                    });
+                    let elevations: Vec<_> = elevations.collect();
+                    assert!(elevations.is_sorted_by(|one, next| one > next));
+                }
+            }
+        }
     }
 }

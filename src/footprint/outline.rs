@@ -133,8 +133,7 @@ fn consistent(
             let next_rad = crossings[(number + 1) % count].horizon_rad;
             (next_rad - crossings[number].horizon_rad).rem_euclid(TAU)
         };
-        let Some(first) =
-            (0..count).min_by(|&one, &other| gap_rad(one).total_cmp(&gap_rad(other)))
+        let Some(first) = (0..count).min_by(|&one, &other| gap_rad(one).total_cmp(&gap_rad(other)))
         else {
             return crossings;
         };

@@ -58,9 +58,9 @@ impl Pyramid {
                     inward[index]
                 } else {
                     {
-                    let normal = corners[start].cross(corners[end]).normalize();
-                    normal * normal.dot(inward[index]).signum()
-                }
+                        let normal = corners[start].cross(corners[end]).normalize();
+                        normal * normal.dot(inward[index]).signum()
+                    }
                 };
                 let [inward, from, to] =
                     [inward, corners[start], corners[end]].map(|vector| *axes * vector);
@@ -93,7 +93,10 @@ impl Pyramid {
     /// The parts of the horizon inside all planes.
     pub(super) fn arcs_of(&self, horizon: &Horizon, lines_m: &[DVec3]) -> ArcSet {
         let arcs = self.sides.iter().map(|side| {
-            let samples: Vec<_> = lines_m.iter().map(|line_m| side.inward.dot(*line_m)).collect();
+            let samples: Vec<_> = lines_m
+                .iter()
+                .map(|line_m| side.inward.dot(*line_m))
+                .collect();
             let breaks_rad = TrigSeries::fit(&samples, horizon.degree()).monotone_pieces();
             ArcSet::where_positive(&breaks_rad, horizon.rounding_rad(lines_m), |angle_rad| {
                 let line_m = horizon.apex.line_m(horizon.unit(angle_rad));

@@ -125,7 +125,12 @@ impl Rim {
                 let sweep = (to.1 - from.1).rem_euclid(TAU);
                 let arc = cone.arc(horizon, from.1, sweep, horizon.is_limb());
                 let radii_m = horizon.apex.radii_m;
-                vec![FootprintEdge::new(cone.bound(), radii_m, (from.0, to.0), arc)]
+                vec![FootprintEdge::new(
+                    cone.bound(),
+                    radii_m,
+                    (from.0, to.0),
+                    arc,
+                )]
             }
             Self::Pyramid(pyramid) => pyramid.edges_between(horizon, from, to),
         }
@@ -138,7 +143,12 @@ impl Rim {
                 let start = horizon.apex.hit(self.direction(0.0));
                 let arc = cone.arc(horizon, 0.0, TAU, false);
                 let radii_m = horizon.apex.radii_m;
-                vec![FootprintEdge::new(cone.bound(), radii_m, (start, start), arc)]
+                vec![FootprintEdge::new(
+                    cone.bound(),
+                    radii_m,
+                    (start, start),
+                    arc,
+                )]
             }
             Self::Pyramid(pyramid) => pyramid.all_edges(horizon),
         }
@@ -181,8 +191,7 @@ impl Cone {
         let samples: Vec<_> = lines_m
             .iter()
             .map(|line_m| {
-                self.axes[2].cross(*line_m).length_squared()
-                    - sin_squared * line_m.length_squared()
+                self.axes[2].cross(*line_m).length_squared() - sin_squared * line_m.length_squared()
             })
             .collect();
         let breaks_rad = TrigSeries::fit(&samples, 2 * horizon.degree()).monotone_pieces();
@@ -200,8 +209,7 @@ impl Cone {
                 self.axes[1] * sin_half,
                 self.axes[2] * cos_half,
             ],
-            self.turn() * station,
-            self.turn() * sweep,
+            (self.turn() * station, self.turn() * sweep),
             ends_on_limb,
         )))
     }

@@ -147,9 +147,8 @@ pub fn touching(number: u64) -> Case {
     let tilt_rad = |t: f64| direction(t).y.atan2(direction(t).z);
     let miss = [0.0, draws.log(1e-16, 1e-2), -draws.log(1e-16, 1e-2)][draws.below(3)];
     let sign = [1.0, -1.0][draws.below(2)];
-    let touch_rad = |angle_rad: &dyn Fn(f64) -> f64| {
-        sign * greatest(&|t| sign * angle_rad(t)) * (1.0 + miss)
-    };
+    let touch_rad =
+        |angle_rad: &dyn Fn(f64) -> f64| sign * greatest(&|t| sign * angle_rad(t)) * (1.0 + miss);
     let (off_rad, tilt_rad) = (touch_rad(&off_rad), touch_rad(&tilt_rad).abs());
     let view = match draws.below(4) {
         0 if off_rad < PI => View::Annular(0.0, off_rad),

@@ -108,26 +108,34 @@ impl Truth {
     }
 
     pub fn sees(&self, point_m: DVec3) -> bool {
-        self.margins(point_m).iter().all(|(_, margin)| *margin >= 0.0)
+        self.margins(point_m)
+            .iter()
+            .all(|(_, margin)| *margin >= 0.0)
     }
 
     /// What rounding of positions and angles alone may do to a margin.
     pub fn rounding_rad(&self, point_m: DVec3) -> f64 {
         let reach = (point_m.length() + self.apex_m.length()) / (point_m - self.apex_m).length();
-        2.0 * f64::EPSILON * (1.0 + reach)
+        // Far from its middle the plane of the corners is stretched.
+        let stretch = self.outline.iter().map(|corner| corner.length_squared());
+        2.0 * f64::EPSILON * (1.0 + reach) * (1.0 + stretch.fold(0.0, f64::max))
     }
 
     /// [`Self::sees`], up to rounding.
     pub fn sees_nearly(&self, point_m: DVec3) -> bool {
         let slack = -self.rounding_rad(point_m);
-        self.margins(point_m).iter().all(|(_, margin)| *margin >= slack)
+        self.margins(point_m)
+            .iter()
+            .all(|(_, margin)| *margin >= slack)
     }
 
     /// Whether rounding decides on a point.
     pub fn cannot_tell(&self, point_m: DVec3) -> bool {
         let rounding_rad = self.rounding_rad(point_m);
         let margins = self.margins(point_m);
-        margins.iter().any(|(_, margin)| margin.abs() <= rounding_rad)
+        margins
+            .iter()
+            .any(|(_, margin)| margin.abs() <= rounding_rad)
     }
 
     /// Margin of what bounds an edge.

@@ -59,7 +59,14 @@ impl Outline {
         points
     }
 
-    fn refine(&self, edge: &FootprintEdge, from: f64, to: f64, depth: u32, points: &mut Vec<DVec3>) {
+    fn refine(
+        &self,
+        edge: &FootprintEdge,
+        from: f64,
+        to: f64,
+        depth: u32,
+        points: &mut Vec<DVec3>,
+    ) {
         let middle = 0.5 * (from + to);
         let [a, m, b] = [from, middle, to].map(|t| edge.ecef_m(t));
         if depth > 0 && (m - 0.5 * (a + b)).length() > self.tolerance_m {
