@@ -14,9 +14,21 @@
 //!
 //! # Accuracy
 //!
-//! Divided by the radii, the ellipsoid is the unit sphere, where the limb and sides are circles; cones
-//! are hit tests of their rays; curves of elevation are solved for at each parameter. Corners on the
-//! limb are roots between the extremes of a Fourier series of degree 2, exact for both cones and planes.
+//! Divided by the radii, the ellipsoid is the unit sphere, where the limb and the sections of sides are
+//! circles; cones are hit by their rays; curves of elevation are solved for at each parameter. Corners
+//! on the limb are bracketed between the extremes of a Fourier series of degree 1 (sides) or 2 (cones),
+//! which are exact there, so none is missed; on curves of elevation the series is of degree 12.
+//!
+//! `cargo test --test footprint -- --ignored --nocapture` judges edges at random parameters by angles
+//! computed another way, and the loops by winding numbers about 5 000 000 points of ray casts:
+//! over 100 000 random sensors from 100 m to 10⁹ m high, on ellipsoids flattened by up to ±1/50, the
+//! curves are within 4 µm, and no winding number is wrong. Over 50 000 more whose fields of view touch
+//! the horizon to within 10⁻¹⁶ … 10⁻², they are within 4 mm where the apex stands 10⁻⁴ rad or more above
+//! the ground (600 m before the limb of the Earth). Nearer to the limb an edge that runs along it moves
+//! by decimetres with the last bit of its angle: there they are within 1 cm but for 1 500 of 68 000
+//! points, all within 120 m of the limb, at which the judge's own rounding decides. Curves that touch to
+//! rounding are taken to cross or not; their loops are closed all the same, but their corner may be off
+//! by half a metre along both.
 
 mod arc_set;
 mod bracketed_root;
