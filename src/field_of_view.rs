@@ -96,8 +96,10 @@ impl FieldOfView {
         let turn: f64 = (0..count)
             .map(|k| corners[k].cross(next(k)).dot(middle))
             .sum();
+        // Twice the cross product of the two, without its cancellation where they are close.
+        let plane = |k: usize| (corners[k] - next(k)).cross(corners[k] + next(k));
         let inward: Arc<[DVec3]> = (0..count)
-            .map(|k| (corners[k].cross(next(k)) * turn.signum()).normalize())
+            .map(|k| (plane(k) * turn.signum()).normalize())
             .collect();
         for k in 0..count {
             // Corners on one plane through the apex are allowed, up to rounding.

@@ -114,6 +114,7 @@ pub mod ellipsoid;
 pub mod error;
 pub mod field_of_view;
 pub mod fill_mesh;
+pub mod footprint;
 pub mod frame_stats;
 #[cfg(feature = "geojson")]
 pub mod geo_json;
@@ -144,6 +145,7 @@ pub use crate::{
     error::{RegionError, RendererError, SensorError},
     field_of_view::FieldOfView,
     fill_mesh::{FillMesh, MeshOptions},
+    footprint::{Footprint, FootprintBound, FootprintEdge, FootprintLoop},
     frame_stats::FrameStats,
     geodetic::LonLat,
     locator::Locator,

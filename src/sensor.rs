@@ -163,16 +163,20 @@ impl Aim<'_> {
         };
         let line_m = point_m - self.apex_ecef_m;
         let risen = -normal.dot(line_m) >= self.sin_min_elevation * line_m.length();
-        risen && self.sees_past_limb(point_m) && self.holds(line_m)
+        risen && self.sees_past_limb(point_m, point_m == foot_m) && self.holds(line_m)
     }
 
     /// Whether the ellipsoid leaves a point to be seen.
-    fn sees_past_limb(&self, point_m: DVec3) -> bool {
+    fn sees_past_limb(&self, point_m: DVec3, on_ellipsoid: bool) -> bool {
         // In coordinates divided by the radii the ellipsoid is the unit sphere, S the apex, P the point:
         // S·P = 1 is the plane of the limb, (S·P − 1)² = (S² − 1)(P² − 1) the cone of tangents.
         let radii_m = self.ellipsoid.radii_m();
         let (apex, point) = (self.apex_ecef_m / radii_m, point_m / radii_m);
         let above_plane = apex.dot(point) - 1.0;
+        if on_ellipsoid {
+            // The root of the rounding of P² − 1 would be decimetres.
+            return above_plane >= 0.0;
+        }
         let outside = (point.length_squared() - 1.0).max(0.0);
         above_plane >= 0.0 || above_plane * above_plane < (apex.length_squared() - 1.0) * outside
     }
