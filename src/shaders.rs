@@ -171,6 +171,24 @@ mod tests {
     }
 
     #[test]
+    fn tiles_and_pages_are_as_large_as_the_shader_says() {
+        use crate::{
+            frame::sight_uniform::{BLOCK, TILE},
+            gpu::sensor_view::{PAGE_ENTRIES, TILE_BYTES, WORKGROUP},
+        };
+        let source = super::bin_sensors(1);
+        assert_eq!(layout_of(&source, "Tile").1 as u64, TILE_BYTES);
+        for expected in [
+            format!("const TILE: u32 = {TILE}u;"),
+            format!("const BLOCK: u32 = {BLOCK}u;"),
+            format!("const PAGE: u32 = {PAGE_ENTRIES}u;"),
+            format!("@workgroup_size({WORKGROUP})"),
+        ] {
+            assert!(source.contains(&expected), "{expected}");
+        }
+    }
+
+    #[test]
     fn the_sight_uniform_has_the_layout_of_the_shader() {
         let (members, size) = layout_of(&super::bin_sensors(1), "Sight");
         let expected = offsets!(

@@ -7,7 +7,7 @@ use crate::{frame::reference::Reference, frame::sight::Sight, options::DepthConv
 /// Pixels across a tile; as in tile.wgsl.
 pub(crate) const TILE: u32 = 8;
 /// Tiles across a block; as in tile.wgsl.
-const BLOCK: u32 = 8;
+pub(crate) const BLOCK: u32 = 8;
 
 /// What lies farther than this above or below the host's surface is none of it, metres.
 const SLACK_M: f64 = 1000.0;

@@ -13,14 +13,16 @@ use crate::{
 };
 
 /// Entries of a page of tile.wgsl, and its bytes with its link.
-const PAGE_ENTRIES: usize = 32;
+pub(crate) const PAGE_ENTRIES: usize = 32;
 const PAGE_BYTES: u64 = 4 * (PAGE_ENTRIES as u64 + 1);
+/// Pages a list on average, at most.
+const PAGES_PER_LIST: usize = 8;
 /// Most bytes of all pages.
 const MOST_PAGE_BYTES: u64 = 64 << 20;
 /// Invocations of a workgroup of bin_sensors.wgsl.
 pub(crate) const WORKGROUP: u32 = 64;
 /// Bytes of `Tile` of tile.wgsl.
-const TILE_BYTES: u64 = 48;
+pub(crate) const TILE_BYTES: u64 = 48;
 
 /// Buffers and bindings of one view.
 pub(crate) struct SensorView {
@@ -268,17 +270,16 @@ impl Tiles {
     }
 }
 
-/// Pages for the lists of all tiles and blocks: as many as could be needed, as far as memory allows.
+/// Pages for the lists of all tiles and blocks: enough for a few hundred sensors in every list.
 /// Where they run out, pixels ask longer lists, which is slow and as right.
 fn page_count(device: &wgpu::Device, lists: u32, sensors: usize) -> u32 {
     let most_bytes = device
         .limits()
         .max_storage_buffer_binding_size
         .min(MOST_PAGE_BYTES);
-    let longest = (sensors as u64 * 4)
-        .div_ceil(PAGE_BYTES - 4)
-        .next_power_of_two();
-    (longest * u64::from(lists)).min(most_bytes / PAGE_BYTES) as u32
+    let longest = sensors.div_ceil(PAGE_ENTRIES).next_power_of_two();
+    let pages = longest.min(PAGES_PER_LIST) as u64;
+    (pages * u64::from(lists)).min(most_bytes / PAGE_BYTES) as u32
 }
 
 fn group(
