@@ -13,3 +13,4 @@ pub(crate) mod noding;
 pub(crate) mod overlaps;
 pub(crate) mod rings;
 pub(crate) mod simple_loops;
+pub(crate) mod winding;

@@ -81,6 +81,7 @@ pub mod sensor;
 #[doc(hidden)]
 pub mod shaders;
 pub mod view;
+pub mod zone;
 
 mod boundary;
 mod frame;
@@ -90,9 +91,9 @@ mod mesh;
 pub use {glam, wgpu};
 
 pub use crate::{
-    curve::{Curve, CurveOn},
+    curve::{Curve, CurveKind, CurveOn},
     ellipsoid::Ellipsoid,
-    error::{RegionError, RendererError, SensorError},
+    error::{RegionError, RendererError, SensorError, ZoneError},
     field_of_view::FieldOfView,
     fill_mesh::{FillMesh, MeshOptions},
     frame_stats::FrameStats,
@@ -105,4 +106,5 @@ pub use crate::{
     repair::{Place, Repair, RepairKind},
     sensor::{Extrusion, Pose, Sensor},
     view::View,
+    zone::Zone,
 };

@@ -6,9 +6,8 @@ use crate::{
     boundary::boundary_graph::Edge,
     boundary::edge_grid::LatticeBox,
     boundary::lattice::{LatticePoint, TURN, orientation},
-    curve::CurveOn,
+    curve::{CurveKind, CurveOn},
     ellipsoid::Ellipsoid,
-    region::EdgeKind,
 };
 
 /// What two edges have in common besides shared end nodes.
@@ -31,11 +30,14 @@ pub(crate) fn meetings(
     second: &Edge,
     mut found: impl FnMut(Meeting),
 ) {
-    if first.kind == EdgeKind::Straight && second.kind == EdgeKind::Straight {
+    if first.kind == CurveKind::Straight && second.kind == CurveKind::Straight {
         for turns in -2..=2 {
             straight_meetings(first, second, turns, &mut found);
         }
         return;
+    }
+    if matches!(first.kind, CurveKind::Circle(_)) && first.kind == second.kind {
+        return same_circle_meetings(ellipsoid, first, second, found);
     }
     let shared = [second.from, second.to]
         .iter()
@@ -51,6 +53,36 @@ pub(crate) fn meetings(
         1 if first.is_also(second.kind) || second.is_also(first.kind) => {}
         _ => found(Meeting::Unclear),
     }
+}
+
+/// Arcs of one circle do not cross: they have an end of one in common with the other, or nothing.
+fn same_circle_meetings(
+    ellipsoid: &Ellipsoid,
+    first: &Edge,
+    second: &Edge,
+    mut found: impl FnMut(Meeting),
+) {
+    let ends_on = |arc: &Edge, other: &Edge| {
+        let curve = arc.curve().on(ellipsoid);
+        let nodes = [(other.from, other.start), (other.to, other.end)];
+        nodes
+            .into_iter()
+            .filter(|&(node, _)| node != arc.from && node != arc.to)
+            .filter(|(_, point)| {
+                let t = curve.parameter_on_circle(point.lon_lat());
+                t.is_some_and(|t| t > 0.0 && t < 1.0)
+            })
+            .map(|(node, _)| node)
+            .collect::<Vec<_>>()
+    };
+    let on_first = ends_on(first, second);
+    on_first
+        .into_iter()
+        .for_each(|node| found(Meeting::NodeOnFirst(node)));
+    let on_second = ends_on(second, first);
+    on_second
+        .into_iter()
+        .for_each(|node| found(Meeting::NodeOnSecond(node)));
 }
 
 /// Meetings of two straight edges on the lon/lat plane, the second moved by whole turns.
@@ -150,7 +182,7 @@ fn touching(edges: [&Edge; 2], first: &CurveOn, a: &Hull, b: &Hull) -> Meeting {
 /// A point common to two edges, put exactly on those that are meridians or parallels: splitting
 /// them there must not bend them.
 fn on_grid_lines(edges: [&Edge; 2], mut point: LatticePoint) -> LatticePoint {
-    for edge in edges.iter().filter(|edge| edge.kind == EdgeKind::Straight) {
+    for edge in edges.iter().filter(|edge| edge.kind == CurveKind::Straight) {
         if edge.turn() == 0 {
             point.lon = edge.start.lon;
         }
@@ -278,8 +310,8 @@ pub(crate) fn passes_north_of(ellipsoid: &Ellipsoid, edge: &Edge, point: Lattice
         return true;
     }
     match edge.kind {
-        EdgeKind::Straight => orientation(west, east, turned) < 0,
-        EdgeKind::Rhumb | EdgeKind::Geodesic => {
+        CurveKind::Straight => orientation(west, east, turned) < 0,
+        _ => {
             latitude_at(&edge.curve().on(ellipsoid), edge, turned) > turned.lon_lat().lat_deg
         }
     }
@@ -288,10 +320,10 @@ pub(crate) fn passes_north_of(ellipsoid: &Ellipsoid, edge: &Edge, point: Lattice
 /// Latitude, degrees, of a curved edge at the longitude of `point`, which it runs over.
 fn latitude_at(curve: &CurveOn, edge: &Edge, point: LatticePoint) -> f64 {
     let share = (point.lon - edge.start.lon) as f64 / edge.turn() as f64;
-    if edge.kind == EdgeKind::Rhumb {
+    if edge.kind == CurveKind::Rhumb {
         return curve.lon_lat(share).lat_deg;
     }
-    // A geodesic's longitude is monotonous but not linear.
+    // The longitude of the others is monotonous but not linear.
     let wanted_deg = point.lon_lat().lon_deg - edge.start.lon_lat().lon_deg;
     let start_deg = curve.lon_lat(0.0).lon_deg;
     let (mut low, mut high) = (0.0, 1.0);
@@ -312,7 +344,9 @@ mod tests {
     use proptest::{prelude::*, test_runner::RngSeed};
 
     use super::*;
-    use crate::{boundary::boundary_graph::BoundaryGraph, curve::Curve, geodetic::LonLat};
+    use crate::{
+        boundary::boundary_graph::BoundaryGraph, curve::Curve, geodetic::LonLat, region::EdgeKind,
+    };
 
     fn edges(kind: EdgeKind, lines: [[(f64, f64); 2]; 2]) -> [Edge; 2] {
         let mut graph = BoundaryGraph::default();

@@ -10,8 +10,9 @@ use crate::{
     boundary::inside::{Boundary, direct},
     boundary::noding::{PolygonPairs, PolygonWalk, node_boundaries},
     boundary::overlaps::overlaps,
-    boundary::rings::{RingWalk, walk_ring},
+    boundary::rings::{RingWalk, walk_corners, walk_ring},
     boundary::simple_loops::{Component, even_odd_components},
+    boundary::winding::loops_round_winding,
     ellipsoid::Ellipsoid,
     error::RegionError,
     fill_mesh::{Arc, BoundaryVertex, Bounds, Fill, FillMesh, MeshOptions, Piece},
@@ -19,8 +20,9 @@ use crate::{
     mesh::densify::{DenseChain, densify},
     mesh::triangulate::{Caps, triangulate},
     mesh::vertex_runs::VertexRuns,
-    region::{EdgeKind, Polygon, Region},
+    region::{EdgeKind, Inside, Polygon, Region},
     repair::{Place, Repair, RepairKind},
+    zone::Zone,
 };
 
 /// Runs the whole pipeline.
@@ -39,7 +41,7 @@ pub(crate) fn build(regions: &[Region], options: &MeshOptions) -> Result<FillMes
     let mut graph = BoundaryGraph::with_capacity(count_vertices(regions));
     let mut polygons = walk_polygons(regions, &ellipsoid, &mut graph, &mut mesh.repairs)?;
     let crossing = node_boundaries(&ellipsoid, &mut graph, &mut polygons, &mut mesh.repairs)?;
-    let boundaries = bound_polygons(regions, &ellipsoid, &graph, &polygons, &mut mesh.repairs);
+    let boundaries = bound_polygons(regions, &ellipsoid, &graph, &polygons, &mut mesh.repairs)?;
     mesh.repairs.sort_by_key(|repair| {
         let Place {
             region,
@@ -99,6 +101,7 @@ fn walk_polygons(
             let mut walk = PolygonWalk {
                 place,
                 rings: Vec::with_capacity(1 + polygon.holes.len()),
+                is_zone: false,
             };
             for (ring_index, ring) in rings_of(polygon) {
                 let place = Place {
@@ -116,8 +119,36 @@ fn walk_polygons(
             }
             walks.push(walk);
         }
+        for (zone_index, zone) in region.zones.iter().enumerate() {
+            let place = Place {
+                region: region_index,
+                polygon: region.polygons.len() + zone_index,
+                ..Place::default()
+            };
+            walks.push(walk_zone(zone, ellipsoid, place, graph)?);
+        }
     }
     Ok(walks)
+}
+
+fn walk_zone(
+    zone: &Zone,
+    ellipsoid: &Ellipsoid,
+    place: Place,
+    graph: &mut BoundaryGraph,
+) -> Result<PolygonWalk, RegionError> {
+    let outline = zone
+        .outline(ellipsoid)
+        .map_err(|error| RegionError::Zone { place, error })?;
+    let rings = outline.rings.iter().enumerate();
+    let rings = rings
+        .map(|(ring, corners)| walk_corners(corners, ellipsoid, Place { ring, ..place }, graph))
+        .collect::<Result<_, _>>()?;
+    Ok(PolygonWalk {
+        place,
+        rings,
+        is_zone: true,
+    })
 }
 
 /// The boundary of every polygon, inside to the left; none for polygons without inside.
@@ -127,13 +158,17 @@ fn bound_polygons(
     graph: &BoundaryGraph,
     polygons: &[PolygonWalk],
     repairs: &mut Vec<Repair>,
-) -> Vec<Option<Boundary>> {
+) -> Result<Vec<Option<Boundary>>, RegionError> {
     let authalic = Authalic::new(*ellipsoid);
     let is_simple = simple_polygons(graph, polygons);
-    let bounded: Vec<(Option<Boundary>, Vec<Repair>)> = polygons
+    let bounded: Result<Vec<(Option<Boundary>, Vec<Repair>)>, RegionError> = polygons
         .par_iter()
         .zip(is_simple)
         .map(|(walk, is_simple)| {
+            if walk.is_zone {
+                let boundary = bound_zone(ellipsoid, graph, &authalic, walk, is_simple)?;
+                return Ok((Some(boundary), Vec::new()));
+            }
             let region = &regions[walk.place.region];
             let mut repairs = Vec::new();
             let components = if is_simple {
@@ -153,16 +188,39 @@ fn bound_polygons(
                     kind: RepairKind::IdleHole,
                 });
             }
-            (boundary, repairs)
+            Ok((boundary, repairs))
         })
         .collect();
-    bounded
-        .into_iter()
-        .map(|(boundary, found)| {
-            repairs.extend(found);
-            boundary
-        })
-        .collect()
+    let bounded = bounded?.into_iter().map(|(boundary, found)| {
+        repairs.extend(found);
+        boundary
+    });
+    Ok(bounded.collect())
+}
+
+/// The boundary of a zone: its rings, which have it to their left, or what they wind round.
+fn bound_zone(
+    ellipsoid: &Ellipsoid,
+    graph: &BoundaryGraph,
+    authalic: &Authalic,
+    walk: &PolygonWalk,
+    is_simple: bool,
+) -> Result<Boundary, RegionError> {
+    let loops = if is_simple {
+        walk.rings.iter().map(|ring| ring.edges.clone()).collect()
+    } else {
+        loops_round_winding(ellipsoid, graph, walk).ok_or(RegionError::Tangled {
+            edges: walk.rings.iter().map(|ring| ring.edges.len()).sum(),
+        })?
+    };
+    let component = Component { loops, ring: 0 };
+    Ok(direct(
+        ellipsoid,
+        graph,
+        authalic,
+        vec![component],
+        Inside::LeftOfRing,
+    ))
 }
 
 /// Which polygons visit no node and walk no edge twice: nearly all, and they need no decomposition.
