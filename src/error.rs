@@ -71,7 +71,9 @@ pub enum ZoneError {
         lat_deg: f64,
     },
     /// A radius, range or width is NaN, negative, too small or too large for the ellipsoid.
-    #[error("a zone cannot have the range or width {range_m} m: {least_m} … {most_m} m are allowed")]
+    #[error(
+        "a zone cannot have the range or width {range_m} m: {least_m} … {most_m} m are allowed"
+    )]
     Range {
         /// The length, metres.
         range_m: f64,

@@ -8,6 +8,7 @@ use crate::{
     boundary::lattice::{LatticePoint, TURN, orientation},
     curve::{CurveKind, CurveOn},
     ellipsoid::Ellipsoid,
+    geodetic::LonLat,
 };
 
 /// What two edges have in common besides shared end nodes.
@@ -51,8 +52,67 @@ pub(crate) fn meetings(
         // From a common end two curves of one kind part for good (geodesics up to the antipode,
         // which edges never reach); how they part is looked at where they do.
         1 if first.is_also(second.kind) || second.is_also(first.kind) => {}
+        1 if first.kind.is_of_zones() || second.kind.is_of_zones() => {
+            let curves = [first, second].map(|edge| edge.curve().on(ellipsoid));
+            meetings_beyond_common_node([first, second], &curves[0], &curves[1], &mut found);
+        }
         _ => found(Meeting::Unclear),
     }
+}
+
+/// Curves that leave a common node with at least this sine between them part at once.
+const PARTING_SINE: f64 = 1e-2;
+
+/// Meetings of two edges of different kinds with a common end node. Where they leave it along a
+/// common tangent, as a corridor's sides and ends do, they only touch there.
+fn meetings_beyond_common_node(
+    edges: [&Edge; 2],
+    first: &CurveOn,
+    second: &CurveOn,
+    found: &mut impl FnMut(Meeting),
+) {
+    let node = if edges[0].from == edges[1].from || edges[0].from == edges[1].to {
+        edges[0].from
+    } else {
+        edges[0].to
+    };
+    let shorter_m = [first, second]
+        .map(|curve| curve.ecef(0.0).distance(curve.ecef(1.0)))
+        .into_iter()
+        .fold(1.0, f64::min);
+    let headings = [(edges[0], first), (edges[1], second)].map(|(edge, curve)| {
+        let length_m = curve.ecef(0.0).distance(curve.ecef(1.0));
+        let share = 0.01 * shorter_m / length_m;
+        let (at, on) = if edge.from == node {
+            (0.0, share)
+        } else {
+            (1.0, 1.0 - share)
+        };
+        (curve.ecef(on) - curve.ecef(at)).normalize_or_zero()
+    });
+    if headings[0].cross(headings[1]).length() < PARTING_SINE {
+        return found(Meeting::Unclear);
+    }
+    let common = first.ellipsoid().ecef(node_position(edges[0], node), 0.0);
+    curved_meetings(edges, first, second, &mut |meeting| match meeting {
+        Meeting::NodeOnFirst(end) | Meeting::NodeOnSecond(end) if end == node => {}
+        Meeting::Crossing(point) => {
+            let position = first.ellipsoid().ecef(point.lon_lat(), 0.0);
+            if position.distance(common) > 4.0 * TOUCH_M / PARTING_SINE {
+                found(meeting);
+            }
+        }
+        meeting => found(meeting),
+    });
+}
+
+fn node_position(edge: &Edge, node: u32) -> LonLat {
+    let end = if edge.from == node {
+        edge.start
+    } else {
+        edge.end
+    };
+    end.lon_lat()
 }
 
 /// Arcs of one circle do not cross: they have an end of one in common with the other, or nothing.
@@ -127,6 +187,9 @@ fn is_between(a: LatticePoint, b: LatticePoint, point: LatticePoint) -> bool {
 
 /// Curves nearer than this, metres, are taken to meet: ten times the rounding of positions.
 const TOUCH_M: f64 = 1e-5;
+
+/// Pieces that lie no further, metres, beside their chords are straight enough to be crossed.
+const STRAIGHT_M: f64 = 4e-6;
 
 /// Bisects both curves until their hulls part or cross.
 fn curved_meetings(
@@ -246,8 +309,9 @@ impl Hull {
             (clear && sides[0] * sides[1] < 0.0).then_some(sides)
         };
         // Longer pieces are so bent that "on both sides" need not mean a single crossing, and the
-        // chords' common point would lie beside the curves': here by 10⁻⁶ m at most.
-        if self.length_m().max(other.length_m()) > 20.0 {
+        // chords' common point would lie beside the curves': here by some 10⁻⁶ m at most.
+        let is_bent = |piece: &Self| piece.length_m() > 20.0 || piece.deviation_m > STRAIGHT_M;
+        if is_bent(self) || is_bent(other) {
             return None;
         }
         sides(self, other)?;
@@ -311,9 +375,7 @@ pub(crate) fn passes_north_of(ellipsoid: &Ellipsoid, edge: &Edge, point: Lattice
     }
     match edge.kind {
         CurveKind::Straight => orientation(west, east, turned) < 0,
-        _ => {
-            latitude_at(&edge.curve().on(ellipsoid), edge, turned) > turned.lon_lat().lat_deg
-        }
+        _ => latitude_at(&edge.curve().on(ellipsoid), edge, turned) > turned.lon_lat().lat_deg,
     }
 }
 
@@ -344,9 +406,7 @@ mod tests {
     use proptest::{prelude::*, test_runner::RngSeed};
 
     use super::*;
-    use crate::{
-        boundary::boundary_graph::BoundaryGraph, curve::Curve, geodetic::LonLat, region::EdgeKind,
-    };
+    use crate::{boundary::boundary_graph::BoundaryGraph, curve::Curve, region::EdgeKind};
 
     fn edges(kind: EdgeKind, lines: [[(f64, f64); 2]; 2]) -> [Edge; 2] {
         let mut graph = BoundaryGraph::default();

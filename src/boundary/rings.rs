@@ -87,7 +87,13 @@ pub(crate) fn walk_corners(
         }
         let curve = Curve::between(corner.edge, points[vertex].lon_lat(), next.lon_lat());
         if corner.edge == EdgeKind::Geodesic {
-            walk_geodesic(&curve, ellipsoid, Place { vertex, ..place }, graph, &mut walk)?;
+            walk_geodesic(
+                &curve,
+                ellipsoid,
+                Place { vertex, ..place },
+                graph,
+                &mut walk,
+            )?;
         } else {
             walk.push(graph.insert_curve(&curve), vertex);
         }

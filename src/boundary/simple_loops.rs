@@ -211,7 +211,11 @@ impl Stars {
     }
 
     /// The directed edges as simple loops that keep to their sectors.
-    pub(crate) fn loops(&self, graph: &BoundaryGraph, edges: &[DirectedEdge]) -> Vec<Vec<DirectedEdge>> {
+    pub(crate) fn loops(
+        &self,
+        graph: &BoundaryGraph,
+        edges: &[DirectedEdge],
+    ) -> Vec<Vec<DirectedEdge>> {
         let directions: FxHashMap<u32, DirectedEdge> =
             edges.iter().map(|&edge| (edge.edge(), edge)).collect();
         let mut walked: FxHashMap<u32, ()> = FxHashMap::default();

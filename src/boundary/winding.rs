@@ -84,8 +84,16 @@ fn windings(
             for step in 1..star.len() {
                 let other = star[(own + step) % star.len()];
                 let uses = uses[&other.edge()];
-                let left_of_forward = if other.is_forward() { left + uses } else { left };
-                left = if other.is_forward() { left + uses } else { left - uses };
+                let left_of_forward = if other.is_forward() {
+                    left + uses
+                } else {
+                    left
+                };
+                left = if other.is_forward() {
+                    left + uses
+                } else {
+                    left - uses
+                };
                 match windings.insert(other.edge(), left_of_forward) {
                     None => reached.push(other),
                     Some(before) if before != left_of_forward => return None,

@@ -20,6 +20,13 @@ pub enum CurveKind {
     Beside(Beside),
 }
 
+impl CurveKind {
+    /// Whether only zones have such edges.
+    pub(crate) fn is_of_zones(self) -> bool {
+        matches!(self, Self::Circle(_) | Self::Beside(_))
+    }
+}
+
 impl From<EdgeKind> for CurveKind {
     fn from(kind: EdgeKind) -> Self {
         match kind {

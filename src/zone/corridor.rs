@@ -86,7 +86,12 @@ pub(crate) fn outline(mut pen: Pen, points: &[LonLat], half_m: f64) -> Outline {
         if index > 0 {
             let before = &legs[index - 1];
             let turn_deg = wrap_deg(before.path.end_azimuth_deg - leg.path.start_azimuth_deg);
-            pen.join(leg.from, leg.path.start_azimuth_deg - 90.0, turn_deg, half_m);
+            pen.join(
+                leg.from,
+                leg.path.start_azimuth_deg - 90.0,
+                turn_deg,
+                half_m,
+            );
         }
     }
     pen.cap(first.from, first.path.start_azimuth_deg - 90.0, half_m);

@@ -122,7 +122,10 @@ impl<'a> Pen<'a> {
             }
             keep
         });
-        stops.into_iter().map(|(_, azimuth_deg)| azimuth_deg).collect()
+        stops
+            .into_iter()
+            .map(|(_, azimuth_deg)| azimuth_deg)
+            .collect()
     }
 }
 
@@ -134,7 +137,12 @@ pub(crate) fn turns_of_longitude(
     high: f64,
     steps: u32,
 ) -> Vec<f64> {
-    sign_changes(|x| arrival(x).azimuth_deg.to_radians().cos(), low, high, steps)
+    sign_changes(
+        |x| arrival(x).azimuth_deg.to_radians().cos(),
+        low,
+        high,
+        steps,
+    )
 }
 
 /// Parameters at which such a curve runs along a parallel.
@@ -144,7 +152,12 @@ pub(crate) fn turns_of_latitude(
     high: f64,
     steps: u32,
 ) -> Vec<f64> {
-    sign_changes(|x| arrival(x).azimuth_deg.to_radians().sin(), low, high, steps)
+    sign_changes(
+        |x| arrival(x).azimuth_deg.to_radians().sin(),
+        low,
+        high,
+        steps,
+    )
 }
 
 fn sign_changes(value: impl Fn(f64) -> f64, low: f64, high: f64, steps: u32) -> Vec<f64> {

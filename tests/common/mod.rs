@@ -11,3 +11,4 @@ pub mod pair_mesh;
 pub mod scene;
 pub mod score;
 pub mod surface;
+pub mod zone_oracle;
