@@ -159,6 +159,8 @@ fn covered(mesh: &FillMesh, normal: DVec3) -> i32 {
         if (a + b + c).dot(towards) < 0.0 {
             continue;
         }
+        // Relative to the point, so that small triangles keep their digits.
+        let [a, b, c] = [a, b, c].map(|corner| corner - towards);
         let sides = [a.cross(b), b.cross(c), c.cross(a)].map(|side| side.dot(towards));
         if sides.iter().all(|side| *side > 0.0) {
             count += 1;
@@ -278,7 +280,7 @@ proptest! {
             points.push(next);
         }
         let zone = Zone::corridor(points, width_m);
-        let tolerance_m = (0.01 * width_m).min(5.0);
+        let tolerance_m = (0.01 * width_m).clamp(1e-3, 5.0);
         let options = MeshOptions { tolerance_m, ..MeshOptions::default() };
         let mesh = FillMesh::build(&[zone.clone().into()], &options);
         prop_assert!(mesh.is_ok(), "{:?} {zone:?}", mesh.err());

@@ -199,6 +199,7 @@ fn curved_meetings(
     found: &mut impl FnMut(Meeting),
 ) {
     let mut touch = None;
+    let mut crossings: Vec<DVec3> = Vec::new();
     let mut stack = vec![(Hull::of(first, 0.0, 1.0), Hull::of(second, 0.0, 1.0))];
     let mut budget = 4096;
     while let Some((a, b)) = stack.pop() {
@@ -210,18 +211,28 @@ fn curved_meetings(
             return found(Meeting::Unclear);
         }
         if let Some(t) = a.crossing(&b) {
-            let point = LatticePoint::nearest(first.lon_lat(a.t0 + t * (a.t1 - a.t0)));
+            let t = a.t0 + t * (a.t1 - a.t0);
+            crossings.push(first.ecef(t));
+            let point = LatticePoint::nearest(first.lon_lat(t));
             found(Meeting::Crossing(on_grid_lines(edges, point.canonical())));
         } else if a.length_m().max(b.length_m()) < TOUCH_M {
-            touch = Some(touching(edges, first, &a, &b));
+            touch = Some((a.start, touching(edges, first, &a, &b)));
         } else if a.length_m() + a.radius_m >= b.length_m() + b.radius_m {
             stack.extend(a.parts(first).map(|part| (part, b)));
         } else {
             stack.extend(b.parts(second).map(|part| (a, part)));
         }
     }
-    // All pieces next to a touching point touch: it is one.
-    touch.into_iter().for_each(found);
+    // All pieces next to a touching point touch: it is one. Those next to a crossing may, too.
+    let is_new = |&(at, _): &(DVec3, Meeting)| {
+        crossings
+            .iter()
+            .all(|crossing| crossing.distance(at) > 4.0 * TOUCH_M)
+    };
+    touch
+        .filter(is_new)
+        .into_iter()
+        .for_each(|(_, meeting)| found(meeting));
 }
 
 /// What short pieces that touch have in common: an end of one edge, or else a crossing so flat that

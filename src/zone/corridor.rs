@@ -73,20 +73,22 @@ pub(crate) fn outline(mut pen: Pen, points: &[LonLat], half_m: f64) -> Outline {
     let (Some(first), Some(last)) = (legs.first(), legs.last()) else {
         return arcs::annulus(pen, points[0], 0.0, half_m);
     };
+    let mut corner = None;
     for (index, leg) in legs.iter().enumerate() {
-        pen.side(leg, half_m);
+        pen.side(leg, half_m, corner);
         if let Some(next) = legs.get(index + 1) {
             let turn_deg = wrap_deg(next.path.start_azimuth_deg - leg.path.end_azimuth_deg);
-            pen.join(leg.to, leg.path.end_azimuth_deg + 90.0, turn_deg, half_m);
+            corner = pen.join(leg.to, leg.path.end_azimuth_deg + 90.0, turn_deg, half_m);
         }
     }
     pen.cap(last.to, last.path.end_azimuth_deg + 90.0, half_m);
+    corner = None;
     for (index, leg) in legs.iter().enumerate().rev() {
-        pen.side(leg, -half_m);
+        pen.side(leg, -half_m, corner);
         if index > 0 {
             let before = &legs[index - 1];
             let turn_deg = wrap_deg(before.path.end_azimuth_deg - leg.path.start_azimuth_deg);
-            pen.join(
+            corner = pen.join(
                 leg.from,
                 leg.path.start_azimuth_deg - 90.0,
                 turn_deg,
@@ -116,8 +118,9 @@ fn legs(pen: &Pen, points: &[LonLat]) -> Vec<Leg> {
 }
 
 impl Pen<'_> {
-    /// One side of a leg: the right one forward, the left one backward; without its end.
-    fn side(&mut self, leg: &Leg, right_m: f64) {
+    /// One side of a leg: the right one forward, the left one backward; without its end. `corner`
+    /// is where it starts if that is not square to the leg's first point.
+    fn side(&mut self, leg: &Leg, right_m: f64, corner: Option<LonLat>) {
         let beside = Beside {
             start: leg.from,
             azimuth_deg: leg.path.start_azimuth_deg,
@@ -130,8 +133,8 @@ impl Pen<'_> {
             (leg.to, leg.path.end_azimuth_deg, length_m),
         ];
         let (point, azimuth_deg, _) = if right_m > 0.0 { ends[0] } else { ends[1] };
-        let start = self.square_to(point, azimuth_deg, right_m);
-        self.push(start.position, edge);
+        let start = corner.unwrap_or_else(|| self.square_to(point, azimuth_deg, right_m).position);
+        self.push(start, edge);
         let mut stops = self.side_stops(leg, right_m);
         if right_m < 0.0 {
             stops.reverse();
@@ -172,21 +175,35 @@ impl Pen<'_> {
     }
 
     /// From the end of one side to the start of the next, both beside the same point of the line:
-    /// round the outside of the bend, or through the point.
-    fn join(&mut self, point: LonLat, from_deg: f64, turn_deg: f64, half_m: f64) {
+    /// round the outside of the bend, or through the point. Answers where the next side starts if
+    /// it is cut short.
+    fn join(&mut self, point: LonLat, from_deg: f64, turn_deg: f64, half_m: f64) -> Option<LonLat> {
+        let turn_rad = turn_deg.to_radians();
         let circle = Circle {
             centre: point,
             radius_m: half_m,
         };
-        if turn_deg.to_radians().abs() * half_m < CORNER_M {
+        if turn_rad.abs() * half_m < CORNER_M {
             // The next side starts where this one ends.
-        } else if turn_deg < 0.0 {
-            self.arc(circle, from_deg, turn_deg);
-        } else {
-            let end = self.on_circle(circle, from_deg);
-            self.push(end.position, CurveKind::Geodesic);
-            self.push(point, CurveKind::Geodesic);
+            return None;
         }
+        if turn_deg < 0.0 {
+            self.arc(circle, from_deg, turn_deg);
+            return None;
+        }
+        // On the inner side of slight bends the sides cross too flatly to be told apart: there they
+        // are cut where they meet, on the bisector.
+        let overlap_m = half_m * turn_rad * turn_rad;
+        let bulge = (half_m / self.geodesic.equatorial_radius()).powi(2);
+        if overlap_m < 2.0 * CORNER_M && overlap_m * bulge < 0.1 * CORNER_M {
+            let reach_m = half_m / (0.5 * turn_rad).cos();
+            let bisector_deg = from_deg + 0.5 * turn_deg;
+            return Some(arrive(self.geodesic, point, bisector_deg, reach_m).position);
+        }
+        let end = self.on_circle(circle, from_deg);
+        self.push(end.position, CurveKind::Geodesic);
+        self.push(point, CurveKind::Geodesic);
+        None
     }
 
     /// Half a circle round an end of the line, from the azimuth of one side to that of the other.
