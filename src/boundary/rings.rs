@@ -9,7 +9,6 @@ use crate::{
     geodetic::LonLat,
     region::EdgeKind,
     repair::{Place, Repair, RepairKind},
-    zone::outline::Corner,
 };
 
 /// A ring walked as the caller wrote it.
@@ -21,7 +20,7 @@ pub(crate) struct RingWalk {
 }
 
 impl RingWalk {
-    fn push(&mut self, edge: Option<DirectedEdge>, vertex: usize) {
+    pub(crate) fn push(&mut self, edge: Option<DirectedEdge>, vertex: usize) {
         // An edge without length (between two names of a pole) bounds nothing.
         if let Some(edge) = edge {
             self.edges.push(edge);
@@ -63,39 +62,6 @@ pub(crate) fn walk_ring(
                 let ends = [nodes[index], nodes[next]];
                 walk.push(graph.insert_curve_between(&curve, ends), vertex);
             }
-        }
-    }
-    Ok(walk)
-}
-
-/// Adds the edges of a zone's ring to the graph; corners are rounded to the lattice.
-pub(crate) fn walk_corners(
-    corners: &[Corner],
-    ellipsoid: &Ellipsoid,
-    place: Place,
-    graph: &mut BoundaryGraph,
-) -> Result<RingWalk, RegionError> {
-    let points: Vec<LatticePoint> = corners
-        .iter()
-        .map(|corner| LatticePoint::nearest(corner.position))
-        .collect();
-    let mut walk = RingWalk::default();
-    for (vertex, corner) in corners.iter().enumerate() {
-        let next = points[(vertex + 1) % points.len()];
-        if points[vertex].canonical() == next.canonical() {
-            continue;
-        }
-        let curve = Curve::between(corner.edge, points[vertex].lon_lat(), next.lon_lat());
-        if corner.edge == EdgeKind::Geodesic {
-            walk_geodesic(
-                &curve,
-                ellipsoid,
-                Place { vertex, ..place },
-                graph,
-                &mut walk,
-            )?;
-        } else {
-            walk.push(graph.insert_curve(&curve), vertex);
         }
     }
     Ok(walk)
@@ -162,7 +128,7 @@ fn is_closed_by_turn(points: &[(usize, LatticePoint)]) -> bool {
 }
 
 /// A geodesic edge; one that runs over a pole gets a node there, where its longitude jumps.
-fn walk_geodesic(
+pub(crate) fn walk_geodesic(
     curve: &Curve,
     ellipsoid: &Ellipsoid,
     place: Place,

@@ -10,9 +10,9 @@ use crate::{
     boundary::inside::{Boundary, direct},
     boundary::noding::{PolygonPairs, PolygonWalk, node_boundaries},
     boundary::overlaps::overlaps,
-    boundary::rings::{RingWalk, walk_corners, walk_ring},
+    boundary::rings::{RingWalk, walk_ring},
     boundary::simple_loops::{Component, even_odd_components},
-    boundary::winding::loops_round_winding,
+    boundary::zones::{bound_zone, walk_zone},
     ellipsoid::Ellipsoid,
     error::RegionError,
     fill_mesh::{Arc, BoundaryVertex, Bounds, Fill, FillMesh, MeshOptions, Piece},
@@ -20,9 +20,8 @@ use crate::{
     mesh::densify::{DenseChain, densify},
     mesh::triangulate::{Caps, triangulate},
     mesh::vertex_runs::VertexRuns,
-    region::{EdgeKind, Inside, Polygon, Region},
+    region::{EdgeKind, Polygon, Region},
     repair::{Place, Repair, RepairKind},
-    zone::Zone,
 };
 
 /// Runs the whole pipeline.
@@ -131,25 +130,8 @@ fn walk_polygons(
     Ok(walks)
 }
 
-fn walk_zone(
-    zone: &Zone,
-    ellipsoid: &Ellipsoid,
-    place: Place,
-    graph: &mut BoundaryGraph,
-) -> Result<PolygonWalk, RegionError> {
-    let outline = zone
-        .outline(ellipsoid)
-        .map_err(|error| RegionError::Zone { place, error })?;
-    let rings = outline.rings.iter().enumerate();
-    let rings = rings
-        .map(|(ring, corners)| walk_corners(corners, ellipsoid, Place { ring, ..place }, graph))
-        .collect::<Result<_, _>>()?;
-    Ok(PolygonWalk {
-        place,
-        rings,
-        is_zone: true,
-    })
-}
+/// A polygon's boundary, if it has an inside, and what was repaired.
+type Bounded = (Option<Boundary>, Vec<Repair>);
 
 /// The boundary of every polygon, inside to the left; none for polygons without inside.
 fn bound_polygons(
@@ -161,7 +143,7 @@ fn bound_polygons(
 ) -> Result<Vec<Option<Boundary>>, RegionError> {
     let authalic = Authalic::new(*ellipsoid);
     let is_simple = simple_polygons(graph, polygons);
-    let bounded: Result<Vec<(Option<Boundary>, Vec<Repair>)>, RegionError> = polygons
+    let bounded: Result<Vec<Bounded>, RegionError> = polygons
         .par_iter()
         .zip(is_simple)
         .map(|(walk, is_simple)| {
@@ -196,31 +178,6 @@ fn bound_polygons(
         boundary
     });
     Ok(bounded.collect())
-}
-
-/// The boundary of a zone: its rings, which have it to their left, or what they wind round.
-fn bound_zone(
-    ellipsoid: &Ellipsoid,
-    graph: &BoundaryGraph,
-    authalic: &Authalic,
-    walk: &PolygonWalk,
-    is_simple: bool,
-) -> Result<Boundary, RegionError> {
-    let loops = if is_simple {
-        walk.rings.iter().map(|ring| ring.edges.clone()).collect()
-    } else {
-        loops_round_winding(ellipsoid, graph, walk).ok_or(RegionError::Tangled {
-            edges: walk.rings.iter().map(|ring| ring.edges.len()).sum(),
-        })?
-    };
-    let component = Component { loops, ring: 0 };
-    Ok(direct(
-        ellipsoid,
-        graph,
-        authalic,
-        vec![component],
-        Inside::LeftOfRing,
-    ))
 }
 
 /// Which polygons visit no node and walk no edge twice: nearly all, and they need no decomposition.
