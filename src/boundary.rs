@@ -3,6 +3,7 @@
 pub(crate) mod arcs;
 pub(crate) mod authalic;
 pub(crate) mod boundary_graph;
+pub(crate) mod curved_meeting;
 pub(crate) mod edge_grid;
 pub(crate) mod headings;
 pub(crate) mod inside;
@@ -13,3 +14,5 @@ pub(crate) mod noding;
 pub(crate) mod overlaps;
 pub(crate) mod rings;
 pub(crate) mod simple_loops;
+pub(crate) mod winding;
+pub(crate) mod zones;

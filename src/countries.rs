@@ -112,6 +112,7 @@ fn country(reader: &mut Reader, arcs: &Arcs) -> Option<Country> {
             polygons,
             edges: EdgeKind::Straight,
             inside: Inside::Smaller,
+            zones: Vec::new(),
         },
     })
 }

@@ -30,6 +30,14 @@ pub enum RegionError {
         /// The vertex where the edge starts.
         place: Place,
     },
+    /// A zone contradicts itself.
+    #[error("{place}: {error}")]
+    Zone {
+        /// The zone, counted as a polygon after the region's polygons.
+        place: Place,
+        /// What is wrong with it.
+        error: ZoneError,
+    },
     /// The ellipsoid's radii are not finite and positive, larger than positions can be encoded for
     /// (6 700 km), or its flattening is beyond 1/50, up to which the error bounds are proven.
     #[error("no fills on an ellipsoid with radii of {a_m} m and {b_m} m")]
@@ -45,6 +53,60 @@ pub enum RegionError {
     Tangled {
         /// Number of edges of all regions.
         edges: usize,
+    },
+}
+
+/// Why a zone cannot be.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ZoneError {
+    /// A longitude or latitude is NaN or infinite, or a latitude is beyond ±90°.
+    #[error("point {point}, ({lon_deg}, {lat_deg}), is not a longitude and latitude in degrees")]
+    Position {
+        /// Which point of the line; 0 for centres.
+        point: usize,
+        /// Its longitude, degrees.
+        lon_deg: f64,
+        /// Its latitude, degrees.
+        lat_deg: f64,
+    },
+    /// A radius, range or width is NaN, negative, too small or too large for the ellipsoid.
+    #[error(
+        "a zone cannot have the range or width {range_m} m: {least_m} … {most_m} m are allowed"
+    )]
+    Range {
+        /// The length, metres.
+        range_m: f64,
+        /// The least length that is allowed, metres.
+        least_m: f64,
+        /// The greatest, metres.
+        most_m: f64,
+    },
+    /// The least range is not below the greatest by 1 cm at least.
+    #[error("nothing lies between the ranges {min_m} m and {max_m} m")]
+    EmptyRange {
+        /// The least range, metres.
+        min_m: f64,
+        /// The greatest, metres.
+        max_m: f64,
+    },
+    /// An azimuth is NaN or beyond ±10⁶ degrees, or the two are less than 1 cm apart at the
+    /// greatest range, one way or the other.
+    #[error("the azimuths {from_deg}° and {to_deg}° bound no sector")]
+    Azimuths {
+        /// Where the sector was to begin, degrees.
+        from_deg: f64,
+        /// Where it was to end, degrees.
+        to_deg: f64,
+    },
+    /// A corridor's line has no points.
+    #[error("a corridor needs a line, which has no points")]
+    NoPoints,
+    /// The ends of a leg of a corridor are nearly antipodal: no unique shortest path joins them.
+    #[error("leg {leg} of the corridor joins nearly antipodal points")]
+    AntipodalLeg {
+        /// Index of the leg's first point.
+        leg: usize,
     },
 }
 

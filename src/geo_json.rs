@@ -151,6 +151,7 @@ fn region(feature: usize, geometry: Geometry) -> Result<Region, GeoJsonError> {
         polygons,
         edges: EdgeKind::Straight,
         inside: Inside::Smaller,
+        zones: Vec::new(),
     })
 }
 

@@ -130,6 +130,7 @@ pub mod sensor_set;
 #[doc(hidden)]
 pub mod shaders;
 pub mod view;
+pub mod zone;
 
 mod boundary;
 mod frame;
@@ -140,9 +141,9 @@ pub use {glam, wgpu};
 
 pub use crate::{
     coverage::CoverageColors,
-    curve::{Curve, CurveOn},
+    curve::{Curve, CurveKind, CurveOn},
     ellipsoid::Ellipsoid,
-    error::{RegionError, RendererError, SensorError},
+    error::{RegionError, RendererError, SensorError, ZoneError},
     field_of_view::FieldOfView,
     fill_mesh::{FillMesh, MeshOptions},
     footprint::{Footprint, FootprintBound, FootprintEdge, FootprintLoop},
@@ -159,4 +160,5 @@ pub use crate::{
     sensor::{Extrusion, Pose, Sensor},
     sensor_set::{SensorDisplay, SensorId, SensorSet, SensorStyle},
     view::View,
+    zone::Zone,
 };

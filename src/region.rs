@@ -1,6 +1,6 @@
 //! Regions: what a caller asks to have filled.
 
-use crate::geodetic::LonLat;
+use crate::{geodetic::LonLat, zone::Zone};
 
 /// How consecutive vertices of a ring are joined.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -40,8 +40,8 @@ pub struct Polygon {
 
 /// Polygons that are filled as one, with one style.
 ///
-/// Polygons of one region that overlap are drawn one above the other: where they do, a translucent
-/// style is blended twice.
+/// Polygons and zones of one region that overlap are drawn one above the other: where they do, a
+/// translucent style is blended twice.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Region {
     /// The parts of the region.
@@ -50,4 +50,6 @@ pub struct Region {
     pub edges: EdgeKind,
     /// Which side of every shell is inside.
     pub inside: Inside,
+    /// Parts that are measured along the surface. `edges` and `inside` say nothing about them.
+    pub zones: Vec<Zone>,
 }

@@ -20,6 +20,7 @@ fn region(edges: EdgeKind, inside: Inside, shell: Vec<LonLat>, holes: Vec<Vec<Lo
         polygons: vec![Polygon { shell, holes }],
         edges,
         inside,
+        zones: Vec::new(),
     }
 }
 
@@ -479,6 +480,7 @@ fn seams_are_not_boundary() {
             .to_vec(),
         edges: EdgeKind::Straight,
         inside: Inside::Smaller,
+        zones: Vec::new(),
     };
     assert_eq!(oracle_of(&halves).boundary(0).count(), 6);
 }

@@ -8,8 +8,9 @@ use crate::{
     boundary::boundary_graph::{BoundaryGraph, DirectedEdge, Edge},
     boundary::lattice::{LatticePoint, TURN},
     curve::isometric::IsometricLatitude,
+    curve::{CurveKind, CurveOn},
     ellipsoid::Ellipsoid,
-    region::EdgeKind,
+    geodetic::LonLat,
 };
 
 /// Nodes and weights of Gauss–Legendre quadrature on −1 … 1, exact to degree 5.
@@ -114,7 +115,7 @@ impl Authalic {
         }
         let (from, to) = (edge.start.lon_lat(), edge.end.lon_lat());
         match edge.kind {
-            EdgeKind::Geodesic => {
+            CurveKind::Geodesic => {
                 let area = capability::AREA;
                 let inverse = |mask| {
                     self.geodesic._gen_inverse(
@@ -127,7 +128,7 @@ impl Authalic {
                 };
                 inverse(area).9
             }
-            EdgeKind::Rhumb if edge.start.lat != edge.end.lat => {
+            CurveKind::Rhumb if edge.start.lat != edge.end.lat => {
                 let isometric = IsometricLatitude::new(&self.ellipsoid);
                 let first = isometric.at(from.lat_deg.to_radians());
                 let climb =
@@ -135,14 +136,46 @@ impl Authalic {
                 let sin = |t: f64| isometric.latitude(first + t * climb).sin();
                 radians(edge.turn()) * self.mean_q(climb.abs(), sin)
             }
-            EdgeKind::Rhumb | EdgeKind::Straight => {
+            CurveKind::Rhumb | CurveKind::Straight => {
                 let (first, rise) = (
                     from.lat_deg.to_radians(),
                     (to.lat_deg - from.lat_deg).to_radians(),
                 );
                 radians(edge.turn()) * self.mean_q(rise.abs(), |t| (first + t * rise).sin())
             }
+            CurveKind::Circle(_) | CurveKind::Beside(_) => {
+                let curve = edge.curve().on(&self.ellipsoid);
+                let end = curve.lon_lat(1.0);
+                self.under_run_m2(&curve, (0.0, from), (1.0, end), 0)
+            }
         }
+    }
+
+    /// ∫ q dλ along a part of a curve, each end given by its parameter and place, m²: by Simpson's
+    /// rule over runs so short that λ and q are quadratic.
+    fn under_run_m2(
+        &self,
+        curve: &CurveOn,
+        start: (f64, LonLat),
+        end: (f64, LonLat),
+        depth: u32,
+    ) -> f64 {
+        let middle_t = 0.5 * (start.0 + end.0);
+        let middle = (middle_t, curve.lon_lat(middle_t));
+        let turn_deg = end.1.lon_deg - start.1.lon_deg;
+        if depth < 4 || turn_deg.abs() > 3.0 && depth < 40 {
+            return self.under_run_m2(curve, start, middle, depth + 1)
+                + self.under_run_m2(curve, middle, end, depth + 1);
+        }
+        let [q0, q1, q2] =
+            [start, middle, end].map(|(_, place)| self.q(place.lat_deg.to_radians().sin()));
+        let [first, second] = [
+            middle.1.lon_deg - start.1.lon_deg,
+            end.1.lon_deg - middle.1.lon_deg,
+        ];
+        // Against the middle's q: what the turn itself carries is exact then.
+        let beside = (q0 - q1) * (3.0 * first - second) + (q2 - q1) * (3.0 * second - first);
+        (q1 * turn_deg + beside / 6.0).to_radians()
     }
 
     /// Mean of q over a run of latitudes of about `length` radians, given by their sines.
@@ -181,7 +214,7 @@ fn radians(lattice_steps: i64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{curve::Curve, geodetic::LonLat};
+    use crate::{curve::Curve, region::EdgeKind};
 
     fn left_share(kind: EdgeKind, ring: &[(f64, f64)]) -> f64 {
         let mut graph = BoundaryGraph::default();

@@ -6,9 +6,8 @@ use rustc_hash::FxHashMap;
 
 use crate::{
     boundary::lattice::{LatticePoint, steps, wrap},
-    curve::Curve,
+    curve::{Curve, CurveKind},
     geodetic::LonLat,
-    region::EdgeKind,
 };
 
 /// The vertices and edges of all regions, each stored once, whoever uses them.
@@ -34,7 +33,7 @@ pub(crate) struct Edge {
     /// meridian that the edge arrives on, which the node does not know.
     pub(crate) start: LatticePoint,
     pub(crate) end: LatticePoint,
-    pub(crate) kind: EdgeKind,
+    pub(crate) kind: CurveKind,
 }
 
 impl Edge {
@@ -50,7 +49,7 @@ impl Edge {
     }
 
     /// Whether the edge is also an edge of `kind` between its ends.
-    pub(crate) fn is_also(&self, kind: EdgeKind) -> bool {
+    pub(crate) fn is_also(&self, kind: CurveKind) -> bool {
         self.kind == kind || self.kind == plainest_kind(kind, self.start, self.end)
     }
 
@@ -62,7 +61,7 @@ impl Edge {
     pub(crate) fn curve(&self) -> Curve {
         let mut from = self.start.lon_lat();
         let mut to = LatticePoint::new(wrap(self.end.lon), self.end.lat).lon_lat();
-        if self.kind == EdgeKind::Geodesic {
+        if self.kind == CurveKind::Geodesic {
             (from, to) = (from.canonical(), to.canonical());
         }
         Curve {
@@ -149,7 +148,7 @@ impl BoundaryGraph {
         let start = LatticePoint::exactly(curve.from);
         let mut end = LatticePoint::exactly(curve.to);
         // Curves to a pole without a turn of their own get their meridian in `insert_between`.
-        if curve.kind == EdgeKind::Straight || !(start.is_pole() || end.is_pole()) {
+        if !follows_meridian_to_pole(curve.kind) || !(start.is_pole() || end.is_pole()) {
             end.lon = start.lon + steps(curve.turn_deg);
         }
         self.insert_between(curve.kind, start, end, ends)
@@ -158,17 +157,17 @@ impl BoundaryGraph {
     /// The edge from `start` to `end`, unwrapped points of the lon/lat plane; none if it has no length.
     pub(crate) fn insert(
         &mut self,
-        kind: EdgeKind,
+        kind: impl Into<CurveKind>,
         start: LatticePoint,
         end: LatticePoint,
     ) -> Option<DirectedEdge> {
         let ends = [start, end].map(|end| self.node(end));
-        self.insert_between(kind, start, end, ends)
+        self.insert_between(kind.into(), start, end, ends)
     }
 
     fn insert_between(
         &mut self,
-        kind: EdgeKind,
+        kind: CurveKind,
         mut start: LatticePoint,
         mut end: LatticePoint,
         [from, to]: [u32; 2],
@@ -176,8 +175,7 @@ impl BoundaryGraph {
         if from == to {
             return None;
         }
-        if kind != EdgeKind::Straight {
-            // Geodesics and rhumbs reach a pole on the meridian of their other end.
+        if follows_meridian_to_pole(kind) {
             if start.is_pole() {
                 start.lon = end.lon;
             } else if end.is_pole() {
@@ -247,14 +245,19 @@ impl BoundaryGraph {
     }
 }
 
+/// Geodesics and rhumbs reach a pole on the meridian of their other end.
+fn follows_meridian_to_pole(kind: CurveKind) -> bool {
+    matches!(kind, CurveKind::Geodesic | CurveKind::Rhumb)
+}
+
 /// Meridians, the equator and, for rhumbs, all parallels are straight on the lon/lat plane too: as
 /// straight edges they are met exactly, and found by neighbours of another kind.
-fn plainest_kind(kind: EdgeKind, start: LatticePoint, end: LatticePoint) -> EdgeKind {
+fn plainest_kind(kind: CurveKind, start: LatticePoint, end: LatticePoint) -> CurveKind {
     let on_meridian = start.lon == end.lon;
     let on_parallel = start.lat == end.lat;
     match kind {
-        EdgeKind::Geodesic if on_meridian || on_parallel && start.lat == 0 => EdgeKind::Straight,
-        EdgeKind::Rhumb if on_meridian || on_parallel => EdgeKind::Straight,
+        CurveKind::Geodesic if on_meridian || on_parallel && start.lat == 0 => CurveKind::Straight,
+        CurveKind::Rhumb if on_meridian || on_parallel => CurveKind::Straight,
         kind => kind,
     }
 }
@@ -262,6 +265,7 @@ fn plainest_kind(kind: EdgeKind, start: LatticePoint, end: LatticePoint) -> Edge
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::region::EdgeKind;
 
     fn insert(graph: &mut BoundaryGraph, a: (f64, f64), b: (f64, f64)) -> DirectedEdge {
         let [a, b] = [a, b].map(|(lon, lat)| LonLat::new(lon, lat));

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use crate::{
     boundary::boundary_graph::Edge,
     boundary::lattice::{POLE, TURN},
-    region::EdgeKind,
+    curve::CurveKind,
 };
 
 /// A box on the lon/lat plane, in lattice steps; `west` in (−180°, 180°], `east` maybe beyond.
@@ -36,8 +36,10 @@ impl LatticeBox {
         // Longitude and the latitude of straight edges and rhumbs are monotonous. A geodesic strays
         // from the latitudes of its ends by half its length at most.
         let stray = match edge.kind {
-            EdgeKind::Geodesic => ((east - west) + (north - south)) / 2 + TURN / 360_000,
-            EdgeKind::Rhumb | EdgeKind::Straight => 0,
+            CurveKind::Geodesic => ((east - west) + (north - south)) / 2 + TURN / 360_000,
+            CurveKind::Rhumb | CurveKind::Straight => 0,
+            // Split where their latitude turns back, up to rounding.
+            CurveKind::Circle(_) | CurveKind::Beside(_) => TURN / 360_000_000,
         };
         Self {
             west,
@@ -342,7 +344,9 @@ fn entry_count(boxes: &[LatticeBox], columns: i64, rows: i64, limit: u64) -> u64
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{boundary::boundary_graph::BoundaryGraph, boundary::lattice::LatticePoint};
+    use crate::{
+        boundary::boundary_graph::BoundaryGraph, boundary::lattice::LatticePoint, region::EdgeKind,
+    };
 
     #[test]
     fn a_dense_place_is_no_tangle_and_a_tangle_is_found_out() {

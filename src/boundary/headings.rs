@@ -12,6 +12,8 @@ use crate::{
 
 /// Headings nearer than this, radians, are not told apart where curved edges leave a node.
 const UNCLEAR_RAD: f64 = 1e-6;
+/// Rounding of positions, metres, which blurs the headings of short edges more than that.
+const ROUNDING_M: f64 = 4e-9;
 
 /// Sorts edges that start at one node counter-clockwise, seen from outside the ellipsoid. Answers
 /// whether their order is certain.
@@ -32,11 +34,17 @@ pub(crate) fn sort_counter_clockwise(
         // Noding leaves no two different straight edges that start the same way.
         return true;
     }
+    let step_m = if at_pole {
+        1.0
+    } else {
+        first_step_m(ellipsoid, graph, edges)
+    };
+    let unclear_rad = UNCLEAR_RAD.max(ROUNDING_M / step_m);
     let heading = |edge| {
         if at_pole {
             polar_heading(graph, edge)
         } else {
-            curved_heading(ellipsoid, graph, edge)
+            curved_heading(ellipsoid, graph, edge, step_m)
         }
     };
     let mut sorted: Vec<_> = edges.iter().map(|&edge| (heading(edge), edge)).collect();
@@ -45,12 +53,12 @@ pub(crate) fn sort_counter_clockwise(
         *place = *edge;
     }
     let close = |a: &((f64, f64), DirectedEdge), b: &((f64, f64), DirectedEdge)| {
-        let tied = ((b.0.0 - a.0.0).abs()) < UNCLEAR_RAD;
+        let tied = ((b.0.0 - a.0.0).abs()) < unclear_rad;
         tied && !(at_pole && straight && b.0.1 != a.0.1)
     };
     let ring_closes = sorted.len() > 2 && {
         let (low, high) = (sorted[0].0.0, sorted[sorted.len() - 1].0.0);
-        low + std::f64::consts::TAU - high < UNCLEAR_RAD
+        low + std::f64::consts::TAU - high < unclear_rad
     };
     !ring_closes && !sorted.windows(2).any(|pair| close(&pair[0], &pair[1]))
 }
@@ -80,17 +88,33 @@ fn polar_heading(graph: &BoundaryGraph, edge: DirectedEdge) -> (f64, f64) {
     }
 }
 
-/// Elsewhere: the direction of the curve's first metre.
-fn curved_heading(ellipsoid: &Ellipsoid, graph: &BoundaryGraph, edge: DirectedEdge) -> (f64, f64) {
+/// Elsewhere: the direction of the curve's first `step_m`.
+fn curved_heading(
+    ellipsoid: &Ellipsoid,
+    graph: &BoundaryGraph,
+    edge: DirectedEdge,
+    step_m: f64,
+) -> (f64, f64) {
     let position = graph.position(graph.start_node(edge));
     let curve = graph.walk(edge).curve().on(ellipsoid);
     let start = curve.ecef(0.0);
     let length_m = start.distance(curve.ecef(1.0)).max(1e-9 * ellipsoid.a_m);
-    let step = curve.ecef((1.0 / length_m).min(1.0)) - start;
+    let step = curve.ecef((step_m / length_m).min(1.0)) - start;
     let (sin, cos) = position.lon_deg.to_radians().sin_cos();
     let east = DVec3::new(-sin, cos, 0.0);
     let north = ellipsoid.normal(position).cross(east);
     (step.dot(north).atan2(step.dot(east)), 0.0)
+}
+
+/// A metre, or a part of the shortest edge: the same for all, so that of curves which leave along a
+/// common tangent the more bent one is seen as such.
+fn first_step_m(ellipsoid: &Ellipsoid, graph: &BoundaryGraph, edges: &[DirectedEdge]) -> f64 {
+    let ecef = |node: u32| ellipsoid.ecef(graph.position(node), 0.0);
+    edges
+        .iter()
+        .map(|&edge| ecef(graph.start_node(edge)).distance(ecef(graph.end_node(edge))))
+        .fold(1.0, |least: f64, length_m| least.min(0.2 * length_m))
+        .max(1e-12 * ellipsoid.a_m)
 }
 
 #[cfg(test)]

@@ -1,14 +1,14 @@
 //! Where two edges meet: exactly for straight edges, by bisection for curved ones.
 
-use glam::DVec3;
-
 use crate::{
     boundary::boundary_graph::Edge,
+    boundary::curved_meeting::{
+        curved_meetings, meetings_beyond_common_node, same_circle_meetings,
+    },
     boundary::edge_grid::LatticeBox,
     boundary::lattice::{LatticePoint, TURN, orientation},
-    curve::CurveOn,
+    curve::{CurveKind, CurveOn},
     ellipsoid::Ellipsoid,
-    region::EdgeKind,
 };
 
 /// What two edges have in common besides shared end nodes.
@@ -31,11 +31,14 @@ pub(crate) fn meetings(
     second: &Edge,
     mut found: impl FnMut(Meeting),
 ) {
-    if first.kind == EdgeKind::Straight && second.kind == EdgeKind::Straight {
+    if first.kind == CurveKind::Straight && second.kind == CurveKind::Straight {
         for turns in -2..=2 {
             straight_meetings(first, second, turns, &mut found);
         }
         return;
+    }
+    if matches!(first.kind, CurveKind::Circle(_)) && first.kind == second.kind {
+        return same_circle_meetings(ellipsoid, first, second, found);
     }
     let shared = [second.from, second.to]
         .iter()
@@ -49,6 +52,10 @@ pub(crate) fn meetings(
         // From a common end two curves of one kind part for good (geodesics up to the antipode,
         // which edges never reach); how they part is looked at where they do.
         1 if first.is_also(second.kind) || second.is_also(first.kind) => {}
+        1 if first.kind.is_of_zones() || second.kind.is_of_zones() => {
+            let curves = [first, second].map(|edge| edge.curve().on(ellipsoid));
+            meetings_beyond_common_node([first, second], &curves[0], &curves[1], &mut found);
+        }
         _ => found(Meeting::Unclear),
     }
 }
@@ -93,167 +100,6 @@ fn is_between(a: LatticePoint, b: LatticePoint, point: LatticePoint) -> bool {
     within(a.lon, b.lon, point.lon) && within(a.lat, b.lat, point.lat) && point != a && point != b
 }
 
-/// Curves nearer than this, metres, are taken to meet: ten times the rounding of positions.
-const TOUCH_M: f64 = 1e-5;
-
-/// Bisects both curves until their hulls part or cross.
-fn curved_meetings(
-    edges: [&Edge; 2],
-    first: &CurveOn,
-    second: &CurveOn,
-    found: &mut impl FnMut(Meeting),
-) {
-    let mut touch = None;
-    let mut stack = vec![(Hull::of(first, 0.0, 1.0), Hull::of(second, 0.0, 1.0))];
-    let mut budget = 4096;
-    while let Some((a, b)) = stack.pop() {
-        if a.distance_m(&b) > a.radius_m + b.radius_m {
-            continue;
-        }
-        budget -= 1;
-        if budget == 0 {
-            return found(Meeting::Unclear);
-        }
-        if let Some(t) = a.crossing(&b) {
-            let point = LatticePoint::nearest(first.lon_lat(a.t0 + t * (a.t1 - a.t0)));
-            found(Meeting::Crossing(on_grid_lines(edges, point.canonical())));
-        } else if a.length_m().max(b.length_m()) < TOUCH_M {
-            touch = Some(touching(edges, first, &a, &b));
-        } else if a.length_m() + a.radius_m >= b.length_m() + b.radius_m {
-            stack.extend(a.parts(first).map(|part| (part, b)));
-        } else {
-            stack.extend(b.parts(second).map(|part| (a, part)));
-        }
-    }
-    // All pieces next to a touching point touch: it is one.
-    touch.into_iter().for_each(found);
-}
-
-/// What short pieces that touch have in common: an end of one edge, or else a crossing so flat that
-/// it could not be seen.
-fn touching(edges: [&Edge; 2], first: &CurveOn, a: &Hull, b: &Hull) -> Meeting {
-    let node_of = |edge: &Edge, hull: &Hull| match (hull.t0 == 0.0, hull.t1 == 1.0) {
-        (true, _) => Some(edge.from),
-        (_, true) => Some(edge.to),
-        _ => None,
-    };
-    if let Some(node) = node_of(edges[1], b) {
-        return Meeting::NodeOnFirst(node);
-    }
-    if let Some(node) = node_of(edges[0], a) {
-        return Meeting::NodeOnSecond(node);
-    }
-    let point = LatticePoint::nearest(first.lon_lat(a.t0)).canonical();
-    Meeting::Crossing(on_grid_lines(edges, point))
-}
-
-/// A point common to two edges, put exactly on those that are meridians or parallels: splitting
-/// them there must not bend them.
-fn on_grid_lines(edges: [&Edge; 2], mut point: LatticePoint) -> LatticePoint {
-    for edge in edges.iter().filter(|edge| edge.kind == EdgeKind::Straight) {
-        if edge.turn() == 0 {
-            point.lon = edge.start.lon;
-        }
-        if edge.start.lat == edge.end.lat {
-            point.lat = edge.start.lat;
-        }
-    }
-    point
-}
-
-/// A piece of a curve: it lies within `radius_m` of its chord.
-#[derive(Clone, Copy)]
-struct Hull {
-    t0: f64,
-    t1: f64,
-    start: DVec3,
-    end: DVec3,
-    /// Unit vector across the wall through the chord.
-    across: DVec3,
-    /// How far the curve may lie from the plane of that wall.
-    deviation_m: f64,
-    radius_m: f64,
-}
-
-impl Hull {
-    fn of(curve: &CurveOn, t0: f64, t1: f64) -> Self {
-        let (start, end) = (curve.ecef(t0), curve.ecef(t1));
-        let deviation_m = curve.deviation_bound_m(t0, t1);
-        let ellipsoid = curve.ellipsoid();
-        let up = ellipsoid.normal_at_surface(start) + ellipsoid.normal_at_surface(end);
-        let sag_m = ellipsoid.chord_sag_m(start.distance(end));
-        Self {
-            t0,
-            t1,
-            start,
-            end,
-            across: (end - start).cross(up).normalize_or_zero(),
-            deviation_m,
-            radius_m: deviation_m + sag_m,
-        }
-    }
-
-    fn length_m(&self) -> f64 {
-        self.start.distance(self.end)
-    }
-
-    /// Not halves: inputs have so many symmetries that curves would often meet at the cut.
-    fn parts(&self, curve: &CurveOn) -> [Self; 2] {
-        let cut = self.t0 + 0.4857 * (self.t1 - self.t0);
-        [Self::of(curve, self.t0, cut), Self::of(curve, cut, self.t1)]
-    }
-
-    /// Where along this piece, 0 … 1, the other one crosses it, if each surely has its ends on
-    /// both sides of the other.
-    fn crossing(&self, other: &Self) -> Option<f64> {
-        let sides = |plane: &Self, line: &Self| {
-            let sides = [line.start, line.end].map(|p| (p - plane.start).dot(plane.across));
-            let clear = sides
-                .iter()
-                .all(|side| side.abs() > plane.deviation_m * 1.01 + 1e-7);
-            (clear && sides[0] * sides[1] < 0.0).then_some(sides)
-        };
-        // Longer pieces are so bent that "on both sides" need not mean a single crossing, and the
-        // chords' common point would lie beside the curves': here by 10⁻⁶ m at most.
-        if self.length_m().max(other.length_m()) > 20.0 {
-            return None;
-        }
-        sides(self, other)?;
-        let [start, end] = sides(other, self)?;
-        Some(start / (start - end))
-    }
-
-    /// Distance, metres, between the two chords.
-    fn distance_m(&self, other: &Self) -> f64 {
-        let (u, v) = (self.end - self.start, other.end - other.start);
-        let w = self.start - other.start;
-        let (uu, uv, vv) = (u.dot(u), u.dot(v), v.dot(v));
-        let (uw, vw) = (u.dot(w), v.dot(w));
-        let ratio = |a: f64, b: f64| {
-            if b > 0.0 {
-                (a / b).clamp(0.0, 1.0)
-            } else {
-                0.0
-            }
-        };
-        let at = |s: f64, t: f64| (w + u * s - v * t).length();
-        // The nearest points are inside both, or at an end of one.
-        let determinant = uu * vv - uv * uv;
-        let s = ratio(uv * vw - vv * uw, determinant);
-        let t = ratio(s * uv + vw, vv);
-        let s = ratio(t * uv - uw, uu);
-        [
-            at(s, t),
-            at(0.0, ratio(vw, vv)),
-            at(1.0, ratio(uv + vw, vv)),
-            at(ratio(-uw, uu), 0.0),
-            at(ratio(uv - uw, uu), 1.0),
-        ]
-        .into_iter()
-        .fold(f64::INFINITY, f64::min)
-    }
-}
-
 /// Whether an edge, in any turn, runs over a longitude by the half-open rule (its western end
 /// counts, its eastern does not) and does so north of `point`.
 pub(crate) fn passes_north_of(ellipsoid: &Ellipsoid, edge: &Edge, point: LatticePoint) -> bool {
@@ -278,20 +124,18 @@ pub(crate) fn passes_north_of(ellipsoid: &Ellipsoid, edge: &Edge, point: Lattice
         return true;
     }
     match edge.kind {
-        EdgeKind::Straight => orientation(west, east, turned) < 0,
-        EdgeKind::Rhumb | EdgeKind::Geodesic => {
-            latitude_at(&edge.curve().on(ellipsoid), edge, turned) > turned.lon_lat().lat_deg
-        }
+        CurveKind::Straight => orientation(west, east, turned) < 0,
+        _ => latitude_at(&edge.curve().on(ellipsoid), edge, turned) > turned.lon_lat().lat_deg,
     }
 }
 
 /// Latitude, degrees, of a curved edge at the longitude of `point`, which it runs over.
 fn latitude_at(curve: &CurveOn, edge: &Edge, point: LatticePoint) -> f64 {
     let share = (point.lon - edge.start.lon) as f64 / edge.turn() as f64;
-    if edge.kind == EdgeKind::Rhumb {
+    if edge.kind == CurveKind::Rhumb {
         return curve.lon_lat(share).lat_deg;
     }
-    // A geodesic's longitude is monotonous but not linear.
+    // The longitude of the others is monotonous but not linear.
     let wanted_deg = point.lon_lat().lon_deg - edge.start.lon_lat().lon_deg;
     let start_deg = curve.lon_lat(0.0).lon_deg;
     let (mut low, mut high) = (0.0, 1.0);
@@ -312,7 +156,9 @@ mod tests {
     use proptest::{prelude::*, test_runner::RngSeed};
 
     use super::*;
-    use crate::{boundary::boundary_graph::BoundaryGraph, curve::Curve, geodetic::LonLat};
+    use crate::{
+        boundary::boundary_graph::BoundaryGraph, curve::Curve, geodetic::LonLat, region::EdgeKind,
+    };
 
     fn edges(kind: EdgeKind, lines: [[(f64, f64); 2]; 2]) -> [Edge; 2] {
         let mut graph = BoundaryGraph::default();

@@ -19,6 +19,8 @@ pub(crate) struct PolygonWalk {
     /// Region and polygon it came from.
     pub(crate) place: Place,
     pub(crate) rings: Vec<RingWalk>,
+    /// Whether it is a zone: its rings may wind round parts of it more than once.
+    pub(crate) is_zone: bool,
 }
 
 /// Splitting moves edges by half a lattice step, which can make new crossings a step away; each
@@ -52,11 +54,13 @@ pub(crate) fn node_boundaries(
                 Meeting::Crossing(point) => match users.common(first, second) {
                     // Whoever else walks these edges meets at a node then, where sectors tell.
                     Some(polygon) => {
-                        let place = polygons[polygon as usize].place_of(first);
-                        repairs.push(Repair {
-                            place,
-                            kind: RepairKind::Crossing,
-                        });
+                        let polygon = &polygons[polygon as usize];
+                        if !polygon.is_zone {
+                            repairs.push(Repair {
+                                place: polygon.place_of(first),
+                                kind: RepairKind::Crossing,
+                            });
+                        }
                         splits.add(first, point);
                         splits.add(second, point);
                     }

@@ -20,7 +20,7 @@ pub(crate) struct RingWalk {
 }
 
 impl RingWalk {
-    fn push(&mut self, edge: Option<DirectedEdge>, vertex: usize) {
+    pub(crate) fn push(&mut self, edge: Option<DirectedEdge>, vertex: usize) {
         // An edge without length (between two names of a pole) bounds nothing.
         if let Some(edge) = edge {
             self.edges.push(edge);
@@ -128,7 +128,7 @@ fn is_closed_by_turn(points: &[(usize, LatticePoint)]) -> bool {
 }
 
 /// A geodesic edge; one that runs over a pole gets a node there, where its longitude jumps.
-fn walk_geodesic(
+pub(crate) fn walk_geodesic(
     curve: &Curve,
     ellipsoid: &Ellipsoid,
     place: Place,

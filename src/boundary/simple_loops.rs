@@ -49,7 +49,7 @@ pub(crate) fn even_odd_components(
     repairs: &mut Vec<Repair>,
 ) -> Vec<Component> {
     let uses = odd_uses(polygon, repairs);
-    let stars = Stars::new(ellipsoid, graph, &uses);
+    let stars = Stars::new(ellipsoid, graph, uses.iter().map(|&(edge, _)| edge));
     report_pinches(graph, polygon, &stars, repairs);
     let mut directed: FxHashMap<u32, DirectedEdge> = FxHashMap::default();
     let mut components = Vec::new();
@@ -148,14 +148,18 @@ fn report_pinches(
 }
 
 /// For every node the edges that start there, counter-clockwise.
-struct Stars {
+pub(crate) struct Stars {
     edges_at: FxHashMap<u32, Vec<DirectedEdge>>,
 }
 
 impl Stars {
-    fn new(ellipsoid: &Ellipsoid, graph: &BoundaryGraph, uses: &[(DirectedEdge, usize)]) -> Self {
+    pub(crate) fn new(
+        ellipsoid: &Ellipsoid,
+        graph: &BoundaryGraph,
+        edges: impl Iterator<Item = DirectedEdge>,
+    ) -> Self {
         let mut edges_at: FxHashMap<u32, Vec<DirectedEdge>> = FxHashMap::default();
-        for &(edge, _) in uses {
+        for edge in edges {
             for outgoing in [edge, edge.reversed()] {
                 edges_at
                     .entry(graph.start_node(outgoing))
@@ -169,7 +173,7 @@ impl Stars {
         Self { edges_at }
     }
 
-    fn edges_at(&self, node: u32) -> &[DirectedEdge] {
+    pub(crate) fn edges_at(&self, node: u32) -> &[DirectedEdge] {
         self.edges_at.get(&node).map_or(&[], Vec::as_slice)
     }
 
@@ -207,7 +211,11 @@ impl Stars {
     }
 
     /// The directed edges as simple loops that keep to their sectors.
-    fn loops(&self, graph: &BoundaryGraph, edges: &[DirectedEdge]) -> Vec<Vec<DirectedEdge>> {
+    pub(crate) fn loops(
+        &self,
+        graph: &BoundaryGraph,
+        edges: &[DirectedEdge],
+    ) -> Vec<Vec<DirectedEdge>> {
         let directions: FxHashMap<u32, DirectedEdge> =
             edges.iter().map(|&edge| (edge.edge(), edge)).collect();
         let mut walked: FxHashMap<u32, ()> = FxHashMap::default();

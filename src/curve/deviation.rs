@@ -1,6 +1,7 @@
 //! How far a curve may lie beside the wall drawn for a piece of it.
 
 use super::{Course, Curve, CurveOn};
+use crate::ellipsoid::Ellipsoid;
 
 /// Bounds are not sharpened below this, metres.
 const COARSE_M: f64 = 0.02;
@@ -58,7 +59,11 @@ impl CurveOn {
         let sag_m = self.ellipsoid.chord_sag_m(chord.length());
         let twist_m = 0.5 * (end_normal - start_normal).dot(across).abs() * sag_m;
         // Rounding of positions, amplified by the extrapolation to the ends.
-        let rounding_m = 1e-14 * self.ellipsoid.a_m;
+        let rounding_m = match &self.course {
+            // Their ends lie beside the curve by as much as vertices are rounded.
+            Course::Circle(_) | Course::Beside(_) => 4e-13 * self.ellipsoid.a_m,
+            _ => 1e-14 * self.ellipsoid.a_m,
+        };
         let tilt = start_normal
             .dot(across)
             .abs()
@@ -95,8 +100,32 @@ impl CurveOn {
                 let b_m = self.ellipsoid.a_m.min(self.ellipsoid.b_m);
                 3.0 * a_m * (geodesic.length_m * share / b_m).powi(order)
             }
+            Course::Circle(circle) => {
+                circle_derivative_m(&self.ellipsoid, circle.radius_m(), order)
+                    * (circle.sweep_deg * share).to_radians().abs().powi(order)
+            }
+            // On the sphere a circle of radius R·cos(h/R) about the geodesic's poles, R·(s/R)ⁿ at
+            // most; for distances h up to 0.3 R the ellipsoid adds what it adds to geodesics.
+            Course::Beside(beside) => {
+                let b_m = self.ellipsoid.a_m.min(self.ellipsoid.b_m);
+                4.0 * a_m * (beside.length_m * share / b_m).abs().powi(order)
+            }
         }
     }
+}
+
+/// Bound, metres, on the length of the third or fifth derivative of a circle's position by azimuth.
+///
+/// On the sphere R·sin(r/R). In the tangent plane, that is to the first order in σ = r/b, a circle
+/// of the ellipsoid is a circle too; what the ellipsoid adds is of the order e²σ², and analytic in
+/// the azimuth: on circles of radius 1 about it, where |sin|, |cos| ≤ cosh 1, it stays below
+/// e²·a·σ²/2, and Cauchy's inequality brings n! for its derivatives.
+fn circle_derivative_m(ellipsoid: &Ellipsoid, radius_m: f64, order: i32) -> f64 {
+    let a_m = ellipsoid.a_m.max(ellipsoid.b_m);
+    let arc = radius_m / ellipsoid.a_m.min(ellipsoid.b_m);
+    let factorial = if order == 3 { 6.0 } else { 120.0 };
+    let added = 0.5 * factorial * ellipsoid.eccentricity_squared().abs() * arc * arc;
+    1.01 * a_m * (arc.sin().max(0.0) + added)
 }
 
 #[cfg(test)]
@@ -105,7 +134,15 @@ mod tests {
     use proptest::{prelude::*, test_runner::RngSeed};
 
     use super::*;
-    use crate::{ellipsoid::Ellipsoid, geodetic::LonLat, region::EdgeKind};
+    use crate::{
+        curve::{
+            Beside, Circle, CurveKind,
+            beside::{arrive, geodesics},
+        },
+        geodetic::LonLat,
+        region::EdgeKind,
+        zone::{WIDEST_HALF, greatest_range_m},
+    };
 
     const KINDS: [EdgeKind; 3] = [EdgeKind::Geodesic, EdgeKind::Rhumb, EdgeKind::Straight];
 
@@ -180,6 +217,135 @@ mod tests {
             check_deviation_bound(&ellipsoid, curve, t.0.min(t.1), t.0.max(t.1));
         }
 
+    }
+
+    const OBLATE: Ellipsoid = Ellipsoid {
+        a_m: 6.0e6,
+        b_m: 5.88e6,
+    };
+    const PROLATE: Ellipsoid = Ellipsoid {
+        a_m: 5.88e6,
+        b_m: 6.0e6,
+    };
+    const FIGURES: [Ellipsoid; 4] = [Ellipsoid::WGS84, Ellipsoid::MARS, OBLATE, PROLATE];
+
+    proptest! {
+        #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, rng_seed: RngSeed::Fixed(1), ..ProptestConfig::default() })]
+
+        /// The derivatives by azimuth, from the Fourier series of the whole circle.
+        #[test]
+        fn derivatives_of_circles_stay_below_their_bound(
+            figure in 0_usize..4,
+            sin_lat in -1.0..1.0_f64,
+            share in 0.0..1.0_f64,
+            shrink in 0.0..7.0_f64,
+        ) {
+            const COUNT: usize = 48;
+            let ellipsoid = FIGURES[figure];
+            let centre = LonLat::new(20.0, sin_lat.asin().to_degrees());
+            let least = if shrink < 1.0 { share } else { 10_f64.powf(-shrink) };
+            let radius_m = greatest_range_m(&ellipsoid) * least;
+            let geodesic = geodesics(&ellipsoid);
+            let points: Vec<DVec3> = (0..COUNT)
+                .map(|k| 360.0 * k as f64 / COUNT as f64)
+                .map(|azimuth| arrive(&geodesic, centre, azimuth, radius_m))
+                .map(|arrival| ellipsoid.ecef(arrival.position, 0.0))
+                .collect();
+            for order in [3, 5] {
+                let bound_m = circle_derivative_m(&ellipsoid, radius_m, order);
+                // Harmonics up to 9: what is beyond is rounding.
+                let mut harmonics = Vec::new();
+                for n in 1..10_usize {
+                    let (mut even, mut odd) = (DVec3::ZERO, DVec3::ZERO);
+                    for (k, point) in points.iter().enumerate() {
+                        let angle = std::f64::consts::TAU * (n * k) as f64 / COUNT as f64;
+                        even += *point * angle.cos() * (2.0 / COUNT as f64);
+                        odd += *point * angle.sin() * (2.0 / COUNT as f64);
+                    }
+                    harmonics.push((n as f64, even, odd));
+                }
+                for step in 0..180 {
+                    let azimuth = f64::from(2 * step).to_radians();
+                    // Odd derivatives of sine and cosine, up to a common sign.
+                    let derivative: DVec3 = harmonics
+                        .iter()
+                        .map(|&(n, even, odd)| {
+                            let (sin, cos) = (n * azimuth).sin_cos();
+                            (odd * cos - even * sin) * n.powi(order)
+                        })
+                        .sum();
+                    let rounding_m = 2e-4;
+                    prop_assert!(derivative.length() <= bound_m + rounding_m, "{} > {bound_m} at {radius_m}", derivative.length());
+                }
+            }
+        }
+
+        /// The derivatives along, from differences over a tenth of a radian.
+        #[test]
+        fn derivatives_beside_geodesics_stay_below_their_bound(
+            figure in 0_usize..4,
+            sin_lat in -1.0..1.0_f64,
+            azimuth_deg in 0.0..360.0_f64,
+            aside in -1.0..1.0_f64,
+        ) {
+            let ellipsoid = FIGURES[figure];
+            let start = LonLat::new(20.0, sin_lat.asin().to_degrees());
+            let geodesic = geodesics(&ellipsoid);
+            let arrive = |from, azimuth_deg, m| arrive(&geodesic, from, azimuth_deg, m);
+            let b_m = ellipsoid.a_m.min(ellipsoid.b_m);
+            let right_m = WIDEST_HALF * b_m * aside;
+            let at = |arc: f64| {
+                let foot = arrive(start, azimuth_deg, arc * b_m);
+                let point = arrive(foot.position, foot.azimuth_deg + 90.0, right_m);
+                ellipsoid.ecef(point.position, 0.0)
+            };
+            let h = 0.05;
+            let p: Vec<DVec3> = (-3..=3).map(|k| at(h * f64::from(k))).collect();
+            let third = (p[5] - p[1] - 2.0 * (p[4] - p[2])) / (2.0 * h.powi(3));
+            let fifth = (p[6] - p[0] - 4.0 * (p[5] - p[1]) + 5.0 * (p[4] - p[2])) / (2.0 * h.powi(5));
+            let a_m = ellipsoid.a_m.max(ellipsoid.b_m);
+            // Differences are means of derivatives near by, less sharp by a percent.
+            prop_assert!(third.length() * 1.02 < 4.0 * a_m, "{}", third.length() / a_m);
+            prop_assert!(fifth.length() * 1.05 < 4.0 * a_m, "{}", fifth.length() / a_m);
+        }
+
+        #[test]
+        fn deviation_of_zone_edges_stays_below_its_bound(
+            figure in 0_usize..4,
+            sin_lat in -1.0..1.0_f64,
+            azimuth_deg in 0.0..360.0_f64,
+            range in 0.0..1.0_f64,
+            shrink in 0.0..7.0_f64,
+            sweep_deg in 0.1..90.0_f64,
+            aside in -1.0..1.0_f64,
+            t in (0.0..1.0_f64, 0.0..1.0_f64),
+        ) {
+            let ellipsoid = FIGURES[figure];
+            let centre = LonLat::new(20.0, sin_lat.asin().to_degrees());
+            let geodesic = geodesics(&ellipsoid);
+            let arrive = |from, azimuth_deg, m| arrive(&geodesic, from, azimuth_deg, m);
+            let share = if shrink < 2.0 { range } else { 10_f64.powf(-shrink) };
+            let radius_m = greatest_range_m(&ellipsoid) * share.max(1e-8);
+            let ends = [azimuth_deg, azimuth_deg + sweep_deg].map(|a| arrive(centre, a, radius_m));
+            let circle = Circle { centre, radius_m };
+            let kind = CurveKind::Circle(circle);
+            let arc = Curve::between(kind, ends[0].position, ends[1].position);
+            // A turn of longitude below a half turn, as in zones.
+            prop_assume!(arc.turn_deg.abs() < 170.0);
+            check_deviation_bound(&ellipsoid, arc, 0.0, 1.0);
+            check_deviation_bound(&ellipsoid, arc, t.0.min(t.1), t.0.max(t.1));
+
+            let right_m = WIDEST_HALF * ellipsoid.b_m.min(ellipsoid.a_m) * aside * share;
+            let beside = Beside { start: centre, azimuth_deg, right_m };
+            let ends = [0.0, 0.7 * radius_m].map(|along_m| {
+                let foot = arrive(centre, azimuth_deg, along_m);
+                arrive(foot.position, foot.azimuth_deg + 90.0, right_m).position
+            });
+            let side = Curve::between(CurveKind::Beside(beside), ends[0], ends[1]);
+            prop_assume!(side.turn_deg.abs() < 170.0);
+            check_deviation_bound(&ellipsoid, side, 0.0, 1.0);
+            check_deviation_bound(&ellipsoid, side, t.0.min(t.1), t.0.max(t.1));
+        }
     }
 
     #[test]

@@ -12,6 +12,7 @@ use crate::{
     boundary::overlaps::overlaps,
     boundary::rings::{RingWalk, walk_ring},
     boundary::simple_loops::{Component, even_odd_components},
+    boundary::zones::{bound_zone, walk_zone},
     ellipsoid::Ellipsoid,
     error::RegionError,
     fill_mesh::{Arc, BoundaryVertex, Bounds, Fill, FillMesh, MeshOptions, Piece},
@@ -39,7 +40,7 @@ pub(crate) fn build(regions: &[Region], options: &MeshOptions) -> Result<FillMes
     let mut graph = BoundaryGraph::with_capacity(count_vertices(regions));
     let mut polygons = walk_polygons(regions, &ellipsoid, &mut graph, &mut mesh.repairs)?;
     let crossing = node_boundaries(&ellipsoid, &mut graph, &mut polygons, &mut mesh.repairs)?;
-    let boundaries = bound_polygons(regions, &ellipsoid, &graph, &polygons, &mut mesh.repairs);
+    let boundaries = bound_polygons(regions, &ellipsoid, &graph, &polygons, &mut mesh.repairs)?;
     mesh.repairs.sort_by_key(|repair| {
         let Place {
             region,
@@ -99,6 +100,7 @@ fn walk_polygons(
             let mut walk = PolygonWalk {
                 place,
                 rings: Vec::with_capacity(1 + polygon.holes.len()),
+                is_zone: false,
             };
             for (ring_index, ring) in rings_of(polygon) {
                 let place = Place {
@@ -116,9 +118,20 @@ fn walk_polygons(
             }
             walks.push(walk);
         }
+        for (zone_index, zone) in region.zones.iter().enumerate() {
+            let place = Place {
+                region: region_index,
+                polygon: region.polygons.len() + zone_index,
+                ..Place::default()
+            };
+            walks.push(walk_zone(zone, ellipsoid, place, graph)?);
+        }
     }
     Ok(walks)
 }
+
+/// A polygon's boundary, if it has an inside, and what was repaired.
+type Bounded = (Option<Boundary>, Vec<Repair>);
 
 /// The boundary of every polygon, inside to the left; none for polygons without inside.
 fn bound_polygons(
@@ -127,13 +140,17 @@ fn bound_polygons(
     graph: &BoundaryGraph,
     polygons: &[PolygonWalk],
     repairs: &mut Vec<Repair>,
-) -> Vec<Option<Boundary>> {
+) -> Result<Vec<Option<Boundary>>, RegionError> {
     let authalic = Authalic::new(*ellipsoid);
     let is_simple = simple_polygons(graph, polygons);
-    let bounded: Vec<(Option<Boundary>, Vec<Repair>)> = polygons
+    let bounded: Result<Vec<Bounded>, RegionError> = polygons
         .par_iter()
         .zip(is_simple)
         .map(|(walk, is_simple)| {
+            if walk.is_zone {
+                let boundary = bound_zone(ellipsoid, graph, &authalic, walk, is_simple)?;
+                return Ok((Some(boundary), Vec::new()));
+            }
             let region = &regions[walk.place.region];
             let mut repairs = Vec::new();
             let components = if is_simple {
@@ -153,16 +170,14 @@ fn bound_polygons(
                     kind: RepairKind::IdleHole,
                 });
             }
-            (boundary, repairs)
+            Ok((boundary, repairs))
         })
         .collect();
-    bounded
-        .into_iter()
-        .map(|(boundary, found)| {
-            repairs.extend(found);
-            boundary
-        })
-        .collect()
+    let bounded = bounded?.into_iter().map(|(boundary, found)| {
+        repairs.extend(found);
+        boundary
+    });
+    Ok(bounded.collect())
 }
 
 /// Which polygons visit no node and walk no edge twice: nearly all, and they need no decomposition.

@@ -41,6 +41,7 @@ pub fn region(edges: EdgeKind, inside: Inside, shell: &[(f64, f64)]) -> Region {
         }],
         edges,
         inside,
+        ..Default::default()
     }
 }
 

@@ -13,3 +13,4 @@ pub mod score;
 pub mod surface;
 pub mod watch;
 pub mod watcher;
+pub mod zone_oracle;

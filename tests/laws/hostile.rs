@@ -45,6 +45,7 @@ fn shapes_keep_their_laws_wherever_they_lie() {
                 polygons: vec![polygon.clone()],
                 edges,
                 inside: Inside::Smaller,
+                zones: Vec::new(),
             };
             let mesh = FillMesh::build(&[region], &options).unwrap();
             check_laws(&mesh);
@@ -102,7 +103,7 @@ proptest! {
         let mut rings = rings.iter().map(|ring| ring.iter().map(place).collect::<Vec<_>>());
         let polygon = Polygon { shell: rings.next().unwrap(), holes: rings.collect() };
         let inside = if left { Inside::LeftOfRing } else { Inside::Smaller };
-        let region = Region { polygons: vec![polygon], edges: KINDS[kind], inside };
+        let region = Region { polygons: vec![polygon], edges: KINDS[kind], inside, zones: Vec::new() };
         if let Ok(mesh) = FillMesh::build(&[region], &MeshOptions::default()) {
             check_arcs(&mesh);
             check_pieces_are_closed(&mesh);
@@ -128,6 +129,7 @@ proptest! {
             polygons: rings.iter().map(polygon).collect(),
             edges: KINDS[kind],
             inside: Inside::Smaller,
+            zones: Vec::new(),
         };
         let regions = [region(&rings[..2], kinds.0), region(&rings[2..], kinds.1)];
         if let Ok(mesh) = FillMesh::build(&regions, &MeshOptions::default()) {

@@ -30,6 +30,7 @@ pub fn region(edges: EdgeKind, inside: Inside, rings: &[&[(f64, f64)]]) -> Regio
         polygons: vec![polygon],
         edges,
         inside,
+        zones: Vec::new(),
     }
 }
 

@@ -4,3 +4,4 @@ mod hostile;
 mod law;
 mod real;
 mod shapes;
+mod zones;

@@ -44,6 +44,7 @@ fn a_region_that_leaves_narrow_gaps_is_covered_once() {
         }],
         edges: EdgeKind::Straight,
         inside: Inside::Smaller,
+        zones: Vec::new(),
     };
     let mesh = FillMesh::build(&[region], &MeshOptions::default()).unwrap();
     assert_eq!(mesh.pieces.len(), 1);

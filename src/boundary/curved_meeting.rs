@@ -1,0 +1,273 @@
+//! Where curved edges meet: by bisection.
+
+use glam::DVec3;
+
+use crate::{
+    boundary::boundary_graph::Edge,
+    boundary::lattice::LatticePoint,
+    boundary::meeting::Meeting,
+    curve::{CurveKind, CurveOn},
+    ellipsoid::Ellipsoid,
+    geodetic::LonLat,
+};
+
+/// Curves nearer than this, metres, are taken to meet: ten times the rounding of positions.
+const TOUCH_M: f64 = 1e-5;
+
+/// Pieces that lie no further, metres, beside their chords are straight enough to be crossed.
+const STRAIGHT_M: f64 = 4e-6;
+
+/// Bisects both curves until their hulls part or cross.
+pub(crate) fn curved_meetings(
+    edges: [&Edge; 2],
+    first: &CurveOn,
+    second: &CurveOn,
+    found: &mut impl FnMut(Meeting),
+) {
+    let mut touch = None;
+    let mut crossings: Vec<DVec3> = Vec::new();
+    let mut stack = vec![(Hull::of(first, 0.0, 1.0), Hull::of(second, 0.0, 1.0))];
+    let mut budget = 4096;
+    while let Some((a, b)) = stack.pop() {
+        if a.distance_m(&b) > a.radius_m + b.radius_m {
+            continue;
+        }
+        budget -= 1;
+        if budget == 0 {
+            return found(Meeting::Unclear);
+        }
+        if let Some(t) = a.crossing(&b) {
+            let t = a.t0 + t * (a.t1 - a.t0);
+            crossings.push(first.ecef(t));
+            let point = LatticePoint::nearest(first.lon_lat(t));
+            found(Meeting::Crossing(on_grid_lines(edges, point.canonical())));
+        } else if a.length_m().max(b.length_m()) < TOUCH_M {
+            touch = Some((a.start, touching(edges, first, &a, &b)));
+        } else if a.length_m() + a.radius_m >= b.length_m() + b.radius_m {
+            stack.extend(a.parts(first).map(|part| (part, b)));
+        } else {
+            stack.extend(b.parts(second).map(|part| (a, part)));
+        }
+    }
+    // All pieces next to a touching point touch: it is one. Those next to a crossing may, too.
+    let is_new = |&(at, _): &(DVec3, Meeting)| {
+        crossings
+            .iter()
+            .all(|crossing| crossing.distance(at) > 4.0 * TOUCH_M)
+    };
+    touch
+        .filter(is_new)
+        .into_iter()
+        .for_each(|(_, meeting)| found(meeting));
+}
+
+/// What short pieces that touch have in common: an end of one edge, or else a crossing so flat that
+/// it could not be seen.
+fn touching(edges: [&Edge; 2], first: &CurveOn, a: &Hull, b: &Hull) -> Meeting {
+    let node_of = |edge: &Edge, hull: &Hull| match (hull.t0 == 0.0, hull.t1 == 1.0) {
+        (true, _) => Some(edge.from),
+        (_, true) => Some(edge.to),
+        _ => None,
+    };
+    if let Some(node) = node_of(edges[1], b) {
+        return Meeting::NodeOnFirst(node);
+    }
+    if let Some(node) = node_of(edges[0], a) {
+        return Meeting::NodeOnSecond(node);
+    }
+    let point = LatticePoint::nearest(first.lon_lat(a.t0)).canonical();
+    Meeting::Crossing(on_grid_lines(edges, point))
+}
+
+/// A point common to two edges, put exactly on those that are meridians or parallels: splitting
+/// them there must not bend them.
+fn on_grid_lines(edges: [&Edge; 2], mut point: LatticePoint) -> LatticePoint {
+    for edge in edges.iter().filter(|edge| edge.kind == CurveKind::Straight) {
+        if edge.turn() == 0 {
+            point.lon = edge.start.lon;
+        }
+        if edge.start.lat == edge.end.lat {
+            point.lat = edge.start.lat;
+        }
+    }
+    point
+}
+
+/// A piece of a curve: it lies within `radius_m` of its chord.
+#[derive(Clone, Copy)]
+struct Hull {
+    t0: f64,
+    t1: f64,
+    start: DVec3,
+    end: DVec3,
+    /// Unit vector across the wall through the chord.
+    across: DVec3,
+    /// How far the curve may lie from the plane of that wall.
+    deviation_m: f64,
+    radius_m: f64,
+}
+
+impl Hull {
+    fn of(curve: &CurveOn, t0: f64, t1: f64) -> Self {
+        let (start, end) = (curve.ecef(t0), curve.ecef(t1));
+        let deviation_m = curve.deviation_bound_m(t0, t1);
+        let ellipsoid = curve.ellipsoid();
+        let up = ellipsoid.normal_at_surface(start) + ellipsoid.normal_at_surface(end);
+        let sag_m = ellipsoid.chord_sag_m(start.distance(end));
+        Self {
+            t0,
+            t1,
+            start,
+            end,
+            across: (end - start).cross(up).normalize_or_zero(),
+            deviation_m,
+            radius_m: deviation_m + sag_m,
+        }
+    }
+
+    fn length_m(&self) -> f64 {
+        self.start.distance(self.end)
+    }
+
+    /// Not halves: inputs have so many symmetries that curves would often meet at the cut.
+    fn parts(&self, curve: &CurveOn) -> [Self; 2] {
+        let cut = self.t0 + 0.4857 * (self.t1 - self.t0);
+        [Self::of(curve, self.t0, cut), Self::of(curve, cut, self.t1)]
+    }
+
+    /// Where along this piece, 0 … 1, the other one crosses it, if each surely has its ends on
+    /// both sides of the other.
+    fn crossing(&self, other: &Self) -> Option<f64> {
+        let sides = |plane: &Self, line: &Self| {
+            let sides = [line.start, line.end].map(|p| (p - plane.start).dot(plane.across));
+            let clear = sides
+                .iter()
+                .all(|side| side.abs() > plane.deviation_m * 1.01 + 1e-7);
+            (clear && sides[0] * sides[1] < 0.0).then_some(sides)
+        };
+        // Longer pieces are so bent that "on both sides" need not mean a single crossing, and the
+        // chords' common point would lie beside the curves': here by some 10⁻⁶ m at most.
+        let is_bent = |piece: &Self| piece.length_m() > 20.0 || piece.deviation_m > STRAIGHT_M;
+        if is_bent(self) || is_bent(other) {
+            return None;
+        }
+        sides(self, other)?;
+        let [start, end] = sides(other, self)?;
+        Some(start / (start - end))
+    }
+
+    /// Distance, metres, between the two chords.
+    fn distance_m(&self, other: &Self) -> f64 {
+        let (u, v) = (self.end - self.start, other.end - other.start);
+        let w = self.start - other.start;
+        let (uu, uv, vv) = (u.dot(u), u.dot(v), v.dot(v));
+        let (uw, vw) = (u.dot(w), v.dot(w));
+        let ratio = |a: f64, b: f64| {
+            if b > 0.0 {
+                (a / b).clamp(0.0, 1.0)
+            } else {
+                0.0
+            }
+        };
+        let at = |s: f64, t: f64| (w + u * s - v * t).length();
+        // The nearest points are inside both, or at an end of one.
+        let determinant = uu * vv - uv * uv;
+        let s = ratio(uv * vw - vv * uw, determinant);
+        let t = ratio(s * uv + vw, vv);
+        let s = ratio(t * uv - uw, uu);
+        [
+            at(s, t),
+            at(0.0, ratio(vw, vv)),
+            at(1.0, ratio(uv + vw, vv)),
+            at(ratio(-uw, uu), 0.0),
+            at(ratio(uv - uw, uu), 1.0),
+        ]
+        .into_iter()
+        .fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// Curves that leave a common node with at least this sine between them part at once.
+const PARTING_SINE: f64 = 1e-2;
+
+/// Meetings of two edges of different kinds with a common end node. Where they leave it along a
+/// common tangent, as a corridor's sides and ends do, they only touch there.
+pub(crate) fn meetings_beyond_common_node(
+    edges: [&Edge; 2],
+    first: &CurveOn,
+    second: &CurveOn,
+    found: &mut impl FnMut(Meeting),
+) {
+    let node = if edges[0].from == edges[1].from || edges[0].from == edges[1].to {
+        edges[0].from
+    } else {
+        edges[0].to
+    };
+    let shorter_m = [first, second]
+        .map(|curve| curve.ecef(0.0).distance(curve.ecef(1.0)))
+        .into_iter()
+        .fold(1.0, f64::min);
+    let headings = [(edges[0], first), (edges[1], second)].map(|(edge, curve)| {
+        let length_m = curve.ecef(0.0).distance(curve.ecef(1.0));
+        let share = 0.01 * shorter_m / length_m;
+        let (at, on) = if edge.from == node {
+            (0.0, share)
+        } else {
+            (1.0, 1.0 - share)
+        };
+        (curve.ecef(on) - curve.ecef(at)).normalize_or_zero()
+    });
+    if headings[0].cross(headings[1]).length() < PARTING_SINE {
+        return found(Meeting::Unclear);
+    }
+    let common = first.ellipsoid().ecef(node_position(edges[0], node), 0.0);
+    curved_meetings(edges, first, second, &mut |meeting| match meeting {
+        Meeting::NodeOnFirst(end) | Meeting::NodeOnSecond(end) if end == node => {}
+        Meeting::Crossing(point) => {
+            let position = first.ellipsoid().ecef(point.lon_lat(), 0.0);
+            if position.distance(common) > 4.0 * TOUCH_M / PARTING_SINE {
+                found(meeting);
+            }
+        }
+        meeting => found(meeting),
+    });
+}
+
+fn node_position(edge: &Edge, node: u32) -> LonLat {
+    let end = if edge.from == node {
+        edge.start
+    } else {
+        edge.end
+    };
+    end.lon_lat()
+}
+
+/// Arcs of one circle do not cross: they have an end of one in common with the other, or nothing.
+pub(crate) fn same_circle_meetings(
+    ellipsoid: &Ellipsoid,
+    first: &Edge,
+    second: &Edge,
+    mut found: impl FnMut(Meeting),
+) {
+    let ends_on = |arc: &Edge, other: &Edge| {
+        let curve = arc.curve().on(ellipsoid);
+        let nodes = [(other.from, other.start), (other.to, other.end)];
+        nodes
+            .into_iter()
+            .filter(|&(node, _)| node != arc.from && node != arc.to)
+            .filter(|(_, point)| {
+                let t = curve.parameter_on_circle(point.lon_lat());
+                t.is_some_and(|t| t > 0.0 && t < 1.0)
+            })
+            .map(|(node, _)| node)
+            .collect::<Vec<_>>()
+    };
+    let on_first = ends_on(first, second);
+    on_first
+        .into_iter()
+        .for_each(|node| found(Meeting::NodeOnFirst(node)));
+    let on_second = ends_on(second, first);
+    on_second
+        .into_iter()
+        .for_each(|node| found(Meeting::NodeOnSecond(node)));
+}

@@ -1,0 +1,10 @@
+//! Zones against their definition: distances and azimuths by Karney's inverse problem.
+//!
+//! All pictures: `cargo test --release --test zones -- --ignored --nocapture`
+
+#[path = "../common/mod.rs"]
+mod common;
+mod cover;
+mod pictures;
+mod refusals;
+mod subjects;
