@@ -2,6 +2,7 @@
 //!
 //! All pictures: `cargo test --release --test zones -- --ignored --nocapture`
 
+mod answers;
 #[path = "../common/mod.rs"]
 mod common;
 mod cover;
