@@ -15,7 +15,8 @@ struct Sensor {
     // From the apex to the reference; w: sine of the least elevation, -1 for none.
     line: vec4<f32>,
     // x: slack of the elevation at the reference; y: by how much sqrt(outside) lifts a point over
-    // the limb; z: 1 if covering from the apex, 0 along the normal; w: unused.
+    // the limb's plane, w: slack at the reference with that; z: 1 if covering from the apex, 0 along
+    // the normal.
     rise: vec4<f32>,
     // Weights: red, green, blue times optical depth, and optical depth.
     weight: vec4<u32>,
@@ -44,9 +45,11 @@ fn slack_of(index: u32, place: Place, radius: f32) -> vec2<f32> {
         least = min(least, plane.w + dot(plane.xyz, to));
     }
     var bounds = vec2<f32>(least - radius, least + radius);
-    let limb = sensor.limb.w + dot(sensor.limb.xyz, to);
+    let on_limb = vec2<f32>(sensor.limb.w);
+    let over_limb = sensor.rise.w + sensor.rise.y * place.over;
+    let limb = select(on_limb, over_limb, place.outside) + dot(sensor.limb.xyz, to);
     let limb_spread = radius * length(sensor.limb.xyz);
-    bounds = min(bounds, limb + sensor.rise.y * place.over + vec2<f32>(-limb_spread, limb_spread));
+    bounds = min(bounds, limb + vec2<f32>(-limb_spread, limb_spread));
     // A loop, since software rasterisers walk through an `if` that no lane takes.
     for (var once = sensor.line.w > -1.0; once; once = false) {
         let distance = length(sensor.line.xyz + to);

@@ -45,7 +45,9 @@ struct Place {
     // |foot point * (1, 1, (a/b)^2)| / a, and its difference from the eye's.
     stretch: f32,
     stretched: f32,
-    // Bounds of sqrt(outside), less the eye's; see place_of.
+    // Whether it may lie above the ellipsoid at its lowest and at its highest, and then bounds of
+    // sqrt(outside), less the eye's; see place_of.
+    outside: vec2<bool>,
     over: vec2<f32>,
 }
 
@@ -103,9 +105,11 @@ fn place_of(from_eye: vec3<f32>, radius: f32) -> Place {
     let far = length(from_eye);
     let level = place.height - min(1e-6 * far, 0.02 + 3e-7 * far);
     let spread = radius * (2.1 + (2.1 * far + 1.1 * radius) / a);
+    let levels = level + 1.05 * vec2<f32>(-radius, radius);
+    place.outside = levels > vec2<f32>(0.0);
     place.over = vec2<f32>(
-        root_over(place, normal, level - 1.05 * radius, farther - spread),
-        root_over(place, normal, level + 1.05 * radius, farther + spread),
+        root_over(place, normal, max(levels.x, 0.0), farther - spread),
+        root_over(place, normal, max(levels.y, 0.0), farther + spread),
     );
     return place;
 }
@@ -122,9 +126,6 @@ fn strays(place: Place, radius: f32) -> bool {
 fn root_over(place: Place, normal: vec3<f32>, level: f32, farther: f32) -> f32 {
     let outside_eye = sight.eye_gradient.w;
     let root_eye = sqrt(max(outside_eye, 0.0));
-    if level <= 0.0 {
-        return -root_eye;
-    }
     if outside_eye > 0.0 && outside_eye < NEAR_M {
         return farther / (sqrt(max(outside_eye + farther, 0.0)) + root_eye);
     }

@@ -110,12 +110,13 @@ impl SensorRecord {
             Extrusion::Apex => (limb_m(at.eye_ecef_m), at.eye_height_m),
         };
         let eye_lift_m = lift * at.outside_m.max(0.0).sqrt();
-        self.limb = padded(gradient, slack_m + eye_lift_m);
+        self.limb = padded(gradient, slack_m);
         // n·(apex − foot) − height ≥ sine · distance, times |M · foot| / a.
         let elevation_m = limb_m(at.foot_ecef_m)
             - at.stretch * (height_m + aim.sin_min_elevation * from_apex_m.length());
         let from_apex = f32::from(u8::from(aim.extrusion == Extrusion::Apex));
-        self.rise = [elevation_m as f32, lift as f32, from_apex, 0.0];
+        let lifted_m = (slack_m + eye_lift_m) as f32;
+        self.rise = [elevation_m as f32, lift as f32, from_apex, lifted_m];
     }
 }
 
