@@ -85,7 +85,7 @@ fn kinds_of_sensors_differ_and_extrusions_do_not_on_the_ellipsoid() {
                 &workplace,
                 &[
                     "--count",
-                    "30",
+                    "100",
                     "--sensor",
                     sensor,
                     "--extrusion",
@@ -113,8 +113,8 @@ fn frames_move() {
         ],
     );
     let frame = |index| picture(&workplace, &format!("d/e/frame-000{index}.png"));
-    assert!(differing_pixels(&frame(0), &frame(1)) > 200);
-    assert!(differing_pixels(&frame(1), &frame(2)) > 200);
+    assert!(differing_pixels(&frame(0), &frame(1)) > 80);
+    assert!(differing_pixels(&frame(1), &frame(2)) > 80);
     assert!(!workplace.path("d/e/frame-0003.png").exists());
 }
 
@@ -276,6 +276,8 @@ fn element_sets_of_two_and_of_three_lines() {
     assert_eq!(differing_pixels(&of("pair.tle"), &message), 0);
     assert_eq!(differing_pixels(&of("named.tle"), &message), 0);
 
+    // One digit has changed, the sum has not.
+    let wrong = one.replacen("26001.0", "26001.1", 1);
     for (text, part) in [
         (String::new(), "no element sets"),
         ("hello\nworld\n".into(), "no element sets"),
@@ -283,7 +285,7 @@ fn element_sets_of_two_and_of_three_lines() {
         (format!("{one}\n{one}\n"), "line 2: "),
         (format!("{two}\n"), "line 1: "),
         (format!("A\n{one}\n{}\n", &two[..60]), "line 3: "),
-        (format!("{}9\n{two}\n", &one[..68]), "checksum"),
+        (format!("{wrong}\n{two}\n"), "checksum"),
         (
             format!("{}ÄÄ{}\n{two}\n", &one[..30], &one[34..]),
             "line 1: ",

@@ -25,7 +25,7 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE")]
     pub elements: Option<PathBuf>,
     /// Satellites: of the shell [default: 100], or at most so many of the file [default: all]
-    #[arg(long, value_name = "N", value_parser = parse_count)]
+    #[arg(long, value_name = "N", value_parser = parse_count, allow_hyphen_values = true)]
     pub count: Option<usize>,
     /// Height of the shell (of the sensors of --scene circles), metres
     #[arg(long, value_name = "M", default_value = "550000", value_parser = parse_height,
