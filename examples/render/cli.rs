@@ -1,18 +1,16 @@
 //! The command line.
 
-use std::{
-    path::{Path, PathBuf},
-    str::FromStr,
-};
+use std::path::{Path, PathBuf};
 
 use clap::{Parser, ValueEnum};
 use glam::UVec2;
 use globefill::{CountTechnique, DepthConvention, EdgeKind, Inside};
 
-use crate::{camera::Viewpoint, output::DEFAULT_DIRECTORY};
-
-/// Most pixels of a picture: what an ordinary machine can hold several targets of.
-const MOST_PIXELS: u64 = 1 << 26;
+use crate::host::{
+    camera::Viewpoint,
+    cli::{parse_finite, parse_fov, parse_size},
+    output::DEFAULT_DIRECTORY,
+};
 
 /// Fills regions on a globe and writes pictures and measurements of it.
 #[derive(Debug, Parser)]
@@ -156,19 +154,6 @@ impl From<Depth> for DepthConvention {
 }
 
 impl Arguments {
-    /// The command line, or the one-line error that says what is wrong with it. Answers `--help`
-    /// and `--version` itself.
-    pub fn from_command_line() -> Result<Self, String> {
-        Self::try_parse().map_err(|error| {
-            if !error.use_stderr() {
-                error.exit();
-            }
-            let text = error.to_string();
-            let line = text.lines().next().unwrap_or_default();
-            line.trim_start_matches("error: ").to_owned()
-        })
-    }
-
     /// Names `out/world.png` where no output was asked for.
     pub fn with_default_output(mut self) -> Self {
         let outputs = [
@@ -182,24 +167,6 @@ impl Arguments {
             self.out = Some(Path::new(DEFAULT_DIRECTORY).join("world.png"));
         }
         self
-    }
-}
-
-fn parse_finite(text: &str) -> Result<f64, String> {
-    let number = f64::from_str(text.trim()).map_err(|error| error.to_string())?;
-    if number.is_finite() {
-        Ok(number)
-    } else {
-        Err("it must be finite".into())
-    }
-}
-
-fn parse_fov(text: &str) -> Result<f64, String> {
-    let fov_deg = parse_finite(text)?;
-    if (0.001..=170.0).contains(&fov_deg) {
-        Ok(fov_deg)
-    } else {
-        Err("it must lie within 0.001 … 170 degrees".into())
     }
 }
 
@@ -218,22 +185,4 @@ fn parse_samples(text: &str) -> Result<u32, String> {
         "4" => Ok(4),
         _ => Err("it must be 1 or 4".into()),
     }
-}
-
-fn parse_size(text: &str) -> Result<UVec2, String> {
-    let (width, height) = text
-        .split_once(['x', 'X'])
-        .ok_or("expected WxH, as 1280x720")?;
-    let side = |word: &str| {
-        word.parse::<u32>()
-            .map_err(|error| format!("{word:?}: {error}"))
-    };
-    let (width, height) = (side(width)?, side(height)?);
-    if width == 0 || height == 0 {
-        return Err("a picture needs at least one pixel each way".into());
-    }
-    if u64::from(width) * u64::from(height) > MOST_PIXELS {
-        return Err(format!("a picture may have at most {MOST_PIXELS} pixels"));
-    }
-    Ok(UVec2::new(width, height))
 }

@@ -5,10 +5,12 @@ use globefill::{
 };
 
 use crate::{
-    gpu::Gpu,
-    ground::{Ground, GroundPipelines},
+    host::{
+        gpu::Gpu,
+        ground::{Ground, GroundPipelines},
+        targets::Targets,
+    },
     invocations::{InvocationQueries, Invocations},
-    targets::Targets,
 };
 
 /// Targets, and a renderer that matches them.

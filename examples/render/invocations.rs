@@ -2,7 +2,7 @@
 
 use globefill::wgpu;
 
-use crate::gpu::Gpu;
+use crate::host::gpu::Gpu;
 
 const KINDS: wgpu::PipelineStatisticsTypes =
     wgpu::PipelineStatisticsTypes::VERTEX_SHADER_INVOCATIONS

@@ -4,10 +4,15 @@ use std::time::Instant;
 
 use globefill::{FillStyle, Frame, FrameStats};
 
-use crate::{camera::Eye, drawing::Drawing, gpu::Gpu, ground::Ground};
-
-/// Frames drawn before timing starts: the first ones compile shaders and allocate.
-const WARM_UP: u32 = 3;
+use crate::{
+    drawing::Drawing,
+    host::{
+        camera::Eye,
+        gpu::Gpu,
+        ground::Ground,
+        times::{WARM_UP, median, milliseconds_since},
+    },
+};
 
 /// An opaque colour that stands for a fill: its index counted from 1, in red and green.
 pub fn identity_style(fill: u32) -> FillStyle {
@@ -71,10 +76,10 @@ pub fn times(
     for index in 0..WARM_UP + frames {
         let start = Instant::now();
         drawing.draw_ground(gpu, ground)?;
-        let ground_ms = start.elapsed().as_secs_f64() * 1e3;
+        let ground_ms = milliseconds_since(start);
         let start = Instant::now();
         stats = drawing.draw(gpu, ground, frame, None)?;
-        let frame_ms = start.elapsed().as_secs_f64() * 1e3;
+        let frame_ms = milliseconds_since(start);
         if index >= WARM_UP {
             without.push(ground_ms);
             with_fills.push(frame_ms);
@@ -86,14 +91,4 @@ pub fn times(
         globe_ms: median(without),
         stats,
     })
-}
-
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    let middle = values.len() / 2;
-    if values.len() % 2 == 1 {
-        values[middle]
-    } else {
-        (values[middle - 1] + values[middle]) / 2.0
-    }
 }

@@ -1,40 +1,22 @@
-//! Encoders of what was drawn: PNG and NumPy.
-
-use std::io::Cursor;
+//! Encoders of what was measured: PNG and NumPy.
 
 use glam::{DVec3, UVec2};
-use image::{ExtendedColorType, ImageEncoder, codecs::png::PngEncoder};
+use image::ExtendedColorType;
 
-/// PNG of 8-bit RGB; alpha is dropped, the host's frame is opaque.
-pub fn png_rgb(size_px: UVec2, rgba: &[u8]) -> Result<Vec<u8>, String> {
-    let (pixels, _) = rgba.as_chunks::<4>();
-    let rgb: Vec<u8> = pixels
-        .iter()
-        .flat_map(|pixel| [pixel[0], pixel[1], pixel[2]])
-        .collect();
-    png(size_px, &rgb, ExtendedColorType::Rgb8)
-}
+use crate::host::png;
 
 /// PNG of 8-bit grey.
 pub fn png_grey8(size_px: UVec2, values: &[u8]) -> Result<Vec<u8>, String> {
-    png(size_px, values, ExtendedColorType::L8)
+    png::encode(size_px, values, ExtendedColorType::L8)
 }
 
 /// PNG of 16-bit grey.
 pub fn png_grey16(size_px: UVec2, values: &[u16]) -> Result<Vec<u8>, String> {
-    png(
+    png::encode(
         size_px,
         bytemuck::cast_slice(values),
         ExtendedColorType::L16,
     )
-}
-
-fn png(size_px: UVec2, samples: &[u8], color: ExtendedColorType) -> Result<Vec<u8>, String> {
-    let mut file = Cursor::new(Vec::new());
-    PngEncoder::new(&mut file)
-        .write_image(samples, size_px.x, size_px.y, color)
-        .map_err(|error| format!("cannot encode a PNG: {error}"))?;
-    Ok(file.into_inner())
 }
 
 /// NumPy array (format 1.0) of float64, height × width × 3; NaN where there is no position.

@@ -6,18 +6,19 @@ use globefill::{Ellipsoid, FillMesh, FillStyle, Frame, MeshOptions, wgpu};
 use serde_json::json;
 
 use crate::{
-    camera::{Eye, Lens, depth_range_m},
     cli::Arguments,
     drawing::{Background, Drawing},
-    elevation::Elevation,
-    gpu::Gpu,
-    ground::{Ground, TargetFormat},
-    measure, output,
-    output::Outputs,
-    palette, pictures,
-    progress::Progress,
-    regions,
-    targets::Targets,
+    host::{
+        camera::{Eye, Shot},
+        elevation::Elevation,
+        gpu::Gpu,
+        ground::{Ground, TargetFormat},
+        output::{self, Outputs},
+        palette, png,
+        progress::Progress,
+        targets::Targets,
+    },
+    measure, pictures, regions,
 };
 
 /// Runs the program.
@@ -50,7 +51,12 @@ pub fn run(arguments: &Arguments, progress: &Progress) -> Result<(), String> {
 
     progress.step("opening the graphics adapter");
     let gpu = Gpu::open()?;
-    let eye = eye(arguments, &ellipsoid, elevation.as_ref());
+    let shot = Shot {
+        fov_deg: arguments.fov,
+        size_px: arguments.size,
+        depth: arguments.depth.into(),
+    };
+    let eye = Eye::above(&ellipsoid, elevation.as_ref(), &arguments.camera, shot);
     progress.step("preparing the ground");
     let ground = Ground::new(&gpu, &ellipsoid, elevation.as_ref(), &eye)?;
     let work = Work {
@@ -87,23 +93,6 @@ fn output_paths(arguments: &Arguments) -> Result<Vec<PathBuf>, String> {
         output::check_writable(path)?;
     }
     Ok(paths)
-}
-
-fn eye(arguments: &Arguments, ellipsoid: &Ellipsoid, elevation: Option<&Elevation>) -> Eye {
-    let viewpoint = &arguments.camera;
-    let ground_m = elevation.map_or(0.0, |elevation| {
-        elevation.height_m(viewpoint.foot.canonical())
-    });
-    let highest_m = elevation.map_or(0.0, Elevation::highest_m);
-    let (near_m, far_m) = depth_range_m(ellipsoid, viewpoint, ground_m, highest_m);
-    let lens = Lens {
-        fov_deg: arguments.fov,
-        size_px: arguments.size,
-        depth: arguments.depth.into(),
-        near_m,
-        far_m,
-    };
-    Eye::new(ellipsoid, viewpoint, lens)
 }
 
 /// All that the drawings need.
@@ -181,7 +170,7 @@ impl Work<'_> {
         let first = drawing.draw(&self.gpu, &self.ground, &frame, None)?;
         if let Some(path) = &self.arguments.out {
             let texels = self.gpu.read_texture(&drawing.targets.color)?;
-            outputs.add(path, pictures::png_rgb(self.arguments.size, &texels)?);
+            outputs.add(path, png::rgb(self.arguments.size, &texels)?);
         }
         let Some(path) = &self.arguments.stats else {
             return Ok(());

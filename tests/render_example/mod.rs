@@ -1,4 +1,4 @@
-//! Runs the example `render` as a user does.
+//! Runs the examples `render` and `sensors` as a user does.
 
 use std::{
     fs,
@@ -45,8 +45,14 @@ impl Workplace {
     }
 
     /// Runs `render` there.
+    #[allow(dead_code)]
     pub fn render(&self, arguments: &[&str]) -> Output {
-        Command::new(example())
+        self.run("render", arguments)
+    }
+
+    /// Runs an example there.
+    pub fn run(&self, example: &str, arguments: &[&str]) -> Output {
+        Command::new(path_of(example))
             .args(arguments)
             .current_dir(&self.directory)
             // Else the window system's loader complains on machines without one.
@@ -63,7 +69,7 @@ impl Drop for Workplace {
 }
 
 /// `cargo test` builds the examples beside the tests' directory.
-fn example() -> PathBuf {
+fn path_of(name: &str) -> PathBuf {
     let test = std::env::current_exe().expect("this test's own path");
     let profile = test
         .parent()
@@ -71,10 +77,10 @@ fn example() -> PathBuf {
         .expect("target/PROFILE/deps/TEST");
     let example = profile
         .join("examples")
-        .join(format!("render{}", std::env::consts::EXE_SUFFIX));
+        .join(format!("{name}{}", std::env::consts::EXE_SUFFIX));
     assert!(
         example.exists(),
-        "{} is missing: run `cargo build --example render` first, as plain `cargo test` does",
+        "{} is missing: run `cargo build --example {name}` first, as plain `cargo test` does",
         example.display()
     );
     example

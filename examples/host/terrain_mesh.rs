@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3};
 use globefill::{Ellipsoid, HeightRange, LonLat};
 use rayon::prelude::*;
 
-use crate::{
+use super::{
     camera::Eye,
     elevation::Elevation,
     tiles::{CELLS, Cover, Side, Tile},

@@ -2,7 +2,7 @@
 
 use globefill::{DepthConvention, Ellipsoid, HeightRange, wgpu, wgpu::util::DeviceExt};
 
-use crate::{
+use super::{
     camera::Eye,
     elevation::Elevation,
     globe::{self, Globe},

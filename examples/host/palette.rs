@@ -53,7 +53,7 @@ pub fn colors(mesh: &FillMesh) -> Vec<[f32; 4]> {
 }
 
 /// The linear value of an sRGB byte (IEC 61966-2-1).
-fn linear(byte: u8) -> f32 {
+pub fn linear(byte: u8) -> f32 {
     let value = f32::from(byte) / 255.0;
     if value <= 0.04045 {
         value / 12.92

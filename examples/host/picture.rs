@@ -5,7 +5,7 @@ use std::path::Path;
 use glam::UVec2;
 use globefill::wgpu;
 
-use crate::gpu::Gpu;
+use super::gpu::Gpu;
 
 /// Texels along a side of the noise tile.
 pub const DETAIL_SIDE: u32 = 256;

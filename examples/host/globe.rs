@@ -3,7 +3,7 @@
 use glam::{DMat3, DVec2, DVec3, UVec2};
 use globefill::{Ellipsoid, wgpu};
 
-use crate::{
+use super::{
     camera::Eye,
     gpu::Gpu,
     ground::{GroundPipeline, TargetFormat},

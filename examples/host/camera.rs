@@ -5,6 +5,8 @@ use std::str::FromStr;
 use glam::{DMat3, DMat4, DVec2, DVec3, UVec2};
 use globefill::{Camera, DepthConvention, Ellipsoid, LonLat};
 
+use super::elevation::Elevation;
+
 /// Lowest camera height above the ellipsoid, metres: a little below the deepest sea floor.
 const LOWEST_HEIGHT_M: f64 = -12_000.0;
 /// Highest camera height, metres; beyond it single-precision depth means little.
@@ -83,7 +85,16 @@ impl Viewpoint {
     }
 }
 
-/// Picture size, field of view and depth range.
+/// Picture size, field of view and depth convention.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shot {
+    /// Vertical field of view.
+    pub fov_deg: f64,
+    pub size_px: UVec2,
+    pub depth: DepthConvention,
+}
+
+/// A shot with its depth range.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lens {
     /// Vertical field of view.
@@ -105,7 +116,29 @@ pub struct Eye {
 }
 
 impl Eye {
-    pub fn new(ellipsoid: &Ellipsoid, viewpoint: &Viewpoint, lens: Lens) -> Self {
+    /// A camera whose depth range cuts nothing off the ground: the bare ellipsoid, or terrain on it.
+    pub fn above(
+        ellipsoid: &Ellipsoid,
+        elevation: Option<&Elevation>,
+        viewpoint: &Viewpoint,
+        shot: Shot,
+    ) -> Self {
+        let ground_m = elevation.map_or(0.0, |elevation| {
+            elevation.height_m(viewpoint.foot.canonical())
+        });
+        let highest_m = elevation.map_or(0.0, Elevation::highest_m);
+        let (near_m, far_m) = depth_range_m(ellipsoid, viewpoint, ground_m, highest_m);
+        let lens = Lens {
+            fov_deg: shot.fov_deg,
+            size_px: shot.size_px,
+            depth: shot.depth,
+            near_m,
+            far_m,
+        };
+        Self::new(ellipsoid, viewpoint, lens)
+    }
+
+    fn new(ellipsoid: &Ellipsoid, viewpoint: &Viewpoint, lens: Lens) -> Self {
         let half_height = (lens.fov_deg.to_radians() / 2.0).tan();
         let aspect = f64::from(lens.size_px.x) / f64::from(lens.size_px.y);
         let half_extent = DVec2::new(half_height * aspect, half_height);
@@ -182,7 +215,7 @@ fn depth_coefficients(lens: &Lens) -> (f64, f64) {
 /// `ground_m` is the terrain's height under the camera, `highest_m` the greatest anywhere. A tenth
 /// of the way to the ground leaves room for the picture's corners (their distance along the axis is
 /// shorter) and for slopes.
-pub fn depth_range_m(
+fn depth_range_m(
     ellipsoid: &Ellipsoid,
     viewpoint: &Viewpoint,
     ground_m: f64,

@@ -2,7 +2,7 @@
 
 use glam::{DVec3, UVec2};
 
-use crate::{elevation::Elevation, picture::Picture};
+use super::{elevation::Elevation, picture::Picture};
 
 /// Colours by height, metres and sRGB: sea floor, shelf, lowland, hills, rock, snow.
 const TINTS: [(f64, [f64; 3]); 12] = [

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use globefill::{DepthConvention, Ellipsoid, HeightRange, wgpu, wgpu::util::DeviceExt};
 
-use crate::{
+use super::{
     camera::Eye,
     elevation::Elevation,
     gpu::Gpu,

@@ -39,7 +39,7 @@ impl Gpu {
             | wgpu::Features::TIMESTAMP_QUERY;
         let (device, queue) = adapter
             .request_device(&wgpu::DeviceDescriptor {
-                label: Some("render"),
+                label: Some("example"),
                 required_features: wanted & adapter.features(),
                 required_limits: adapter.limits(),
                 ..Default::default()

@@ -3,7 +3,7 @@
 use glam::UVec2;
 use globefill::wgpu;
 
-use crate::{
+use super::{
     gpu::Gpu,
     ground::{Ground, GroundPipelines, TargetFormat},
     picture::extent,

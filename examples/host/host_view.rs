@@ -4,7 +4,7 @@ use bytemuck::{Pod, Zeroable};
 use glam::{DVec2, DVec3, DVec4};
 use globefill::Ellipsoid;
 
-use crate::{camera::Eye, picture::DETAIL_SIDE};
+use super::{camera::Eye, picture::DETAIL_SIDE};
 
 /// `HostView` of `host_view.wgsl`, where the fields are explained.
 #[repr(C)]
