@@ -1,5 +1,6 @@
 // Binning: for each block, then for each tile, which sensors cover all of its surface (summed, once)
-// and which may cover some of it (listed, to be asked again nearer by).
+// and which may cover some of it (listed, to be asked again nearer by). A slack that is no number, which
+// the middle of the Earth can have, is listed.
 
 // The surface's distances within each tile.
 @compute @workgroup_size(64)
@@ -42,8 +43,8 @@ fn ball_of(corner: vec2<u32>, end: vec2<u32>, tile: Tile) -> vec4<f32> {
         radius = max(radius, length(ray * tile.nearest - middle));
         radius = max(radius, length(ray * tile.farthest - middle));
     }
-    // Foot points lie hardly farther apart than what stands on them; the rest is for rounding.
-    return vec4<f32>(middle, 1.05 * radius + 1e-5 * length(middle));
+    // What is added is for rounding.
+    return vec4<f32>(middle, 1.001 * radius + 1e-5 * length(middle));
 }
 
 // Appends to a list; answers whether there was room.
@@ -88,11 +89,11 @@ fn cs_bin_blocks(@builtin(global_invocation_id) id: vec3<u32>) {
         let place = place_of(ball.xyz, ball.w);
         var list: Cursor;
         for (var sensor = 0u; sensor < sight.counts.x; sensor += 1u) {
-            let slack = slack_of(sensor, place, ball.w);
+            let slack = slack_of(sensor, place);
             if slack.x >= 0.0 {
                 block.weight += sensors[sensor].weight;
                 block.covering += 1u;
-            } else if slack.y >= 0.0 && !append(&block, &list, sensor) {
+            } else if !(slack.y < 0.0) && !append(&block, &list, sensor) {
                 list.entry = UNLISTED;
                 break;
             }
@@ -126,11 +127,11 @@ fn cs_bin_tiles(@builtin(global_invocation_id) id: vec3<u32>) {
         var list: Cursor;
         for (var k = 0u; k < asked; k += 1u) {
             let sensor = next_sensor(&asking, listed);
-            let slack = slack_of(sensor, place, ball.w);
+            let slack = slack_of(sensor, place);
             if slack.x >= 0.0 {
                 tile.weight += sensors[sensor].weight;
                 tile.covering += 1u;
-            } else if slack.y >= 0.0 && !append(&tile, &list, sensor) {
+            } else if !(slack.y < 0.0) && !append(&tile, &list, sensor) {
                 list.entry = UNLISTED;
                 break;
             }

@@ -28,11 +28,12 @@ struct Sensor {
 // Inward normal and slack at the reference.
 @group(0) @binding(2) var<storage, read> planes: array<vec4<f32>>;
 
-// Bounds of the least slack within `radius` of a place (made with the same radius).
-fn slack_of(index: u32, place: Place, radius: f32) -> vec2<f32> {
+// Bounds of the least slack at a place, as far as that is known.
+fn slack_of(index: u32, place: Place) -> vec2<f32> {
     let sensor = sensors[index];
     let apex = sensor.rise.z;
     let to = select(place.from_foot, place.from_eye, apex > 0.5);
+    let radius = select(place.foot_known, place.known, apex > 0.5);
     let along = dot(sensor.axis.xyz, to);
     let beside = to - along * sensor.axis.xyz;
     let out = length(sensor.across.xyz + beside) + length(sensor.across.xyz);
@@ -60,12 +61,13 @@ fn slack_of(index: u32, place: Place, radius: f32) -> vec2<f32> {
         let elevation = sensor.rise.x + dot(sensor.limb.xyz, place.from_foot)
             - stretch_eye * (apex * place.above_eye + sine * longer)
             - place.stretched * (apex * place.height + sine * distance);
-        let spread = radius * 1.05 * (2.0 + (distance + radius) / sight.ellipsoid.w);
+        let reach = place.foot_known;
+        let spread = reach * 1.05 * (2.0 + (distance + reach) / sight.ellipsoid.w);
         bounds = min(bounds, elevation + vec2<f32>(-spread, spread));
     }
     return bounds;
 }
 
 fn covers(index: u32, place: Place) -> bool {
-    return slack_of(index, place, 0.0).x >= 0.0;
+    return slack_of(index, place).x >= 0.0;
 }

@@ -1,6 +1,6 @@
 // From the depth at a pixel to the surface point and its foot point on the ellipsoid. Everything is a
-// difference from the eye or from the eye's foot point, formed without cancellation, so that errors
-// are about 1e-7 of the distance to the eye: a ten-thousandth of a pixel.
+// difference from the eye or from the eye's foot point, formed without cancellation, so that positions
+// are within 2.5e-7 of the distance to the eye.
 
 // Metres along ECEF axes.
 struct Sight {
@@ -32,6 +32,8 @@ struct Sight {
 
 // Below this the eye's outside and its differences are of the size of the distances seen.
 const NEAR_M: f32 = 2e5;
+// A radius about a foot point that holds all others.
+const EVERYWHERE: f32 = 1e12;
 
 // A surface point.
 struct Place {
@@ -49,6 +51,9 @@ struct Place {
     // sqrt(outside), less the eye's; see place_of.
     outside: vec2<bool>,
     over: vec2<f32>,
+    // It and its foot point lie within these of where they are said to be.
+    known: f32,
+    foot_known: f32,
 }
 
 fn ray_at(at_px: vec2<f32>) -> vec3<f32> {
@@ -101,17 +106,31 @@ fn place_of(from_eye: vec3<f32>, radius: f32) -> Place {
         / (a * a * (place.stretch + stretch_eye));
     place.height = (tau_eye + more) * a * place.stretch;
     place.above_eye = a * (tau_eye * place.stretched + more * place.stretch);
-    // Rounding must not lift a point on the ellipsoid over the limb; this much it does not reach.
-    let far = length(from_eye);
-    let level = place.height - min(1e-6 * far, 0.02 + 3e-7 * far);
-    let spread = radius * (2.1 + (2.1 * far + 1.1 * radius) / a);
-    let levels = level + 1.05 * vec2<f32>(-radius, radius);
+    place.known = radius;
+    place.foot_known = foot_radius(place.height, radius);
+    // What rounding can lift off the ellipsoid must not be lifted over the limb; from four times that
+    // the height counts in full.
+    let unit = 3e-7 * length(from_eye);
+    let heights = place.height + 1.05 * vec2<f32>(-radius, radius);
+    let levels = min(heights, max((heights - unit) * (4.0 / 3.0), vec2<f32>(0.0)));
     place.outside = levels > vec2<f32>(0.0);
+    let spread = radius * (2.1 + (2.1 * length(from_eye) + 1.1 * radius) / a);
+    let grown = farther + vec2<f32>(-spread, spread) - 2.0 * place.stretch * (heights - levels);
     place.over = vec2<f32>(
-        root_over(place, normal, max(levels.x, 0.0), farther - spread),
-        root_over(place, normal, max(levels.y, 0.0), farther + spread),
+        root_over(place, normal, max(levels.x, 0.0), grown.x),
+        root_over(place, normal, max(levels.y, 0.0), grown.y),
     );
     return place;
+}
+
+// How far foot points lie from that of a point `height` above the ellipsoid if what stands on them lies
+// within `radius` of it: feet spread below the surface, without bound where curvature has its centre.
+fn foot_radius(height: f32, radius: f32) -> f32 {
+    let deepest = max(radius - height, 0.0);
+    let a = sight.ellipsoid.x;
+    let b = sight.ellipsoid.w;
+    let left = 1.0 - deepest * max(a, b) / (min(a, b) * min(a, b));
+    return select(EVERYWHERE, radius / left, left > 0.3);
 }
 
 // Whether something within `radius` of a place lies so far above or below the host's surface that it is

@@ -117,6 +117,10 @@ pub enum SensorError {
     /// The apex is NaN, infinite, or farther than 10¹⁰ m.
     #[error("the sensor's apex is not a position")]
     Apex,
+    /// The ellipsoid's radii are not finite and positive, larger than 6 700 km, or its flattening is
+    /// beyond 1/50, up to which error bounds are proven.
+    #[error("no sensors above such an ellipsoid")]
+    Ellipsoid,
     /// The apex does not lie above the ellipsoid.
     #[error("the sensor's apex lies on or below the ellipsoid")]
     ApexBelowSurface,
@@ -195,7 +199,7 @@ pub enum RendererError {
         /// Sensors there is room for.
         most: usize,
     },
-    /// The pixel lies outside the frame that was prepared, or none was.
+    /// The pixel lies outside the frame that was counted last, or none was.
     #[error("there is no pixel {0} in this view")]
     NoSuchPixel(glam::UVec2),
     /// More fills in one layer than codes.

@@ -56,8 +56,8 @@ impl FieldOfView {
         }))
     }
 
-    /// A pyramid of four planes, tilted from the boresight by `right_rad` to the right and left and by
-    /// `up_rad` up and down.
+    /// A pyramid of four planes, tilted from the boresight by the half-angles `right_rad` to the right
+    /// and left and `up_rad` up and down.
     ///
     /// # Errors
     /// [`SensorError::HalfAngle`] unless both lie between 0 and π/2, exclusively.
@@ -81,7 +81,7 @@ impl FieldOfView {
     ///
     /// # Errors
     /// [`SensorError::Corners`] unless there are 3 … [`MAX_CORNERS`]; [`SensorError::Corner`] with the
-    /// first corner that is not finite, is no direction, equals the one before, or is not convex.
+    /// first corner that is not finite, is no direction, equals another, or is not convex.
     pub fn convex(corners: &[DVec3]) -> Result<Self, SensorError> {
         let count = corners.len();
         if !(3..=MAX_CORNERS).contains(&count) {
@@ -104,7 +104,8 @@ impl FieldOfView {
         for k in 0..count {
             // Corners on one plane through the apex are allowed, up to rounding.
             let others = |normal: DVec3| corners.iter().all(|corner| corner.dot(normal) > -1e-12);
-            let distinct = (corners[k] - next(k)).length() > 1e-9;
+            let same = |other: &&DVec3| (corners[k] - **other).length() <= 1e-9;
+            let distinct = corners.iter().filter(same).count() == 1;
             if !(distinct && inward[k].is_finite() && others(inward[k])) {
                 return Err(SensorError::Corner(k));
             }

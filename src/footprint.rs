@@ -113,7 +113,8 @@ impl Footprint {
         self.measures().centroid()
     }
 
-    /// A cap about the centroid that holds the footprint; none of an empty one.
+    /// A cap about the centroid that holds the footprint; none of an empty one. How far edges stray from
+    /// the points looked at is estimated, with a factor of 2 to spare (see [`Stretch`](crate::outline::Stretch)).
     pub fn bounding_cap(&self) -> Option<Cap> {
         self.enclosed().bounding_cap()
     }

@@ -25,7 +25,8 @@ pub struct FrameStats {
     pub refined_chords: u32,
     /// Visible sensors.
     pub sensors: u32,
-    /// Compute dispatches that `count` records: none without visible sensors, and as many for one as for all.
+    /// Compute dispatches that `count` records: none where nothing is shown of
+    /// sensors, and as many for one as for all.
     pub dispatches: u32,
     /// Bytes written to GPU buffers since the previous frame of this view.
     pub upload_bytes: u64,

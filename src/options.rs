@@ -63,6 +63,9 @@ pub struct Camera {
 }
 
 /// Heights above the ellipsoid, metres, between which the host's surface lies.
+///
+/// What lies outside is no surface: fills do not reach it, and sensors leave out what lies more than
+/// 1 km and a hundredth of the distance beyond, such as satellites and sky domes in the depth buffer.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct HeightRange {
     /// No visible surface point lies lower.

@@ -195,9 +195,9 @@ impl Renderer {
         view: &mut View,
         frame: &Frame,
     ) -> Result<FrameStats, RendererError> {
-        self.check_sensors(frame.size_px)?;
+        let sensor_sight = self.sensor_sight(frame)?;
         let mut stats = self.prepare_fills(queue, view, frame)?;
-        self.prepare_sensors(queue, view, frame, &mut stats)?;
+        self.prepare_sensors(queue, view, frame, sensor_sight.as_ref(), &mut stats);
         Ok(stats)
     }
 

@@ -100,6 +100,9 @@ impl Sensor {
         if !apex_ecef_m.is_finite() || apex_ecef_m.length_squared() > FARTHEST_M * FARTHEST_M {
             return Err(SensorError::Apex);
         }
+        if !ellipsoid.is_supported() {
+            return Err(SensorError::Ellipsoid);
+        }
         let scaled = apex_ecef_m / ellipsoid.radii_m();
         let above = scaled.length_squared() - 1.0;
         // An apex on the surface has no limb.

@@ -9,11 +9,12 @@ use crate::{
     coverage::{self, CoverageColors},
     ellipsoid::Ellipsoid,
     error::SensorError,
+    frame::sensor_record::plane_count,
     geodetic::LonLat,
     sensor::{Aim, Pose, Sensor},
 };
 
-/// Names a sensor in a [`SensorSet`]; never given out twice.
+/// Names a sensor in a [`SensorSet`]; no two sensors of a process have the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct SensorId(u64);
 
@@ -58,9 +59,16 @@ pub struct SensorSet {
     ellipsoid: Ellipsoid,
     entries: IndexMap<SensorId, Entry, FxBuildHasher>,
     display: SensorDisplay,
-    next_id: u64,
+    version: Version,
+}
+
+/// Which set, and when it was last changed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Version {
+    /// Stamp of when the set was made.
+    pub set: u64,
     /// Stamp of the last change.
-    changed: u64,
+    pub changed: u64,
 }
 
 #[derive(Clone, Debug)]
@@ -71,7 +79,7 @@ pub(crate) struct Entry {
     pub changed: u64,
 }
 
-/// Stamps are unique in a process, so that a view notices when the whole set was replaced.
+/// Stamps are unique in a process, so that sets can be exchanged and identifiers not be confused.
 fn stamp() -> u64 {
     static LAST: AtomicU64 = AtomicU64::new(1);
     LAST.fetch_add(1, Ordering::Relaxed)
@@ -90,8 +98,10 @@ impl SensorSet {
             ellipsoid,
             entries: IndexMap::default(),
             display: SensorDisplay::default(),
-            next_id: 0,
-            changed: stamp(),
+            version: Version {
+                set: stamp(),
+                changed: stamp(),
+            },
         }
     }
 
@@ -117,12 +127,12 @@ impl SensorSet {
     pub fn insert(&mut self, sensor: Sensor, style: SensorStyle) -> Result<SensorId, SensorError> {
         sensor.aim(&self.ellipsoid)?;
         coverage::check(&style.color)?;
-        let id = SensorId(self.next_id);
-        self.next_id += 1;
+        let changed = self.change();
+        let id = SensorId(changed);
         let entry = Entry {
             sensor,
             style,
-            changed: self.change(),
+            changed,
         };
         self.entries.insert(id, entry);
         Ok(id)
@@ -238,18 +248,18 @@ impl SensorSet {
         change(entry)?;
         let now = stamp();
         entry.changed = now;
-        self.changed = now;
+        self.version.changed = now;
         Ok(())
     }
 
     fn change(&mut self) -> u64 {
-        self.changed = stamp();
-        self.changed
+        self.version.changed = stamp();
+        self.version.changed
     }
 
-    /// Stamp of the last change of anything.
-    pub(crate) fn changed(&self) -> u64 {
-        self.changed
+    /// Which set it is, and as of when.
+    pub(crate) fn version(&self) -> Version {
+        self.version
     }
 
     /// Number of visible sensors.
@@ -258,6 +268,11 @@ impl SensorSet {
             .values()
             .filter(|entry| entry.style.visible)
             .count()
+    }
+
+    /// Number of planes of all fields of view.
+    pub(crate) fn plane_count(&self) -> usize {
+        self.entries.values().map(plane_count).sum()
     }
 
     /// The sensor at a place in the order of the set.
@@ -294,7 +309,7 @@ mod tests {
                     .unwrap()
             })
             .collect();
-        let before = set.changed();
+        let before = set.version().changed;
         set.remove(ids[1]).unwrap();
         assert_eq!(set.remove(ids[1]), Err(SensorError::NoSuchSensor));
         let changed: Vec<bool> = (0..3).map(|k| set.entry(k).changed > before).collect();
@@ -306,7 +321,7 @@ mod tests {
     fn a_refused_change_leaves_the_sensor_as_it_was() {
         let mut set = SensorSet::default();
         let id = set.insert(sensor(0.0), SensorStyle::default()).unwrap();
-        let before = set.changed();
+        let before = set.version().changed;
         let underground = Pose {
             apex_ecef_m: glam::DVec3::X,
             ..sensor(0.0).pose
@@ -324,7 +339,7 @@ mod tests {
             set.get(id).unwrap(),
             (&sensor(0.0), &SensorStyle::default())
         );
-        assert_eq!(set.changed(), before);
+        assert_eq!(set.version().changed, before);
     }
 
     #[test]

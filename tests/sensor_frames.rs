@@ -15,7 +15,7 @@ use common::{
 use glam::UVec2;
 use globefill::{
     CoverageColors, Ellipsoid, Extrusion, FrameStats, LonLat, Renderer, RendererError,
-    RendererOptions, SensorDisplay, SensorStyle, View, wgpu,
+    RendererOptions, SensorDisplay, SensorSet, SensorStyle, View, wgpu,
 };
 
 const SIZE: UVec2 = UVec2::new(160, 90);
@@ -356,4 +356,131 @@ fn what_is_no_surface_is_left_out() {
     assert!(drawn.iter().all(|&count| count == u32::MAX));
     let read = read_back(gpu, &painter.renderer, &view, &[UVec2::new(80, 45)]);
     assert_eq!(read, [0]);
+}
+
+#[test]
+fn sets_can_be_exchanged() {
+    let Some(gpu) = gpu() else { return };
+    let surface = globe(1);
+    let few = &shell(3)[..];
+    let mut other = SensorSet::default();
+    let watchers = &shell(40)[17..21];
+    for watcher in watchers {
+        other
+            .insert(watcher.sensor(), SensorStyle::default())
+            .expect("a sound sensor");
+    }
+    // The set drawn first was changed last.
+    let mut painter = CountPainter::new(gpu, few, &surface);
+    let display = painter.renderer.sensors().display().clone();
+    let mut view = View::default();
+    let (drawn, _) = painter.draw(gpu, &mut view, &surface);
+    assert_eq!(judge_counts(few, &surface, &drawn).wrong, 0);
+    other.set_display(display);
+    let first = std::mem::replace(painter.renderer.sensors_mut(), other);
+    let (drawn, _) = painter.draw(gpu, &mut view, &surface);
+    assert_eq!(judge_counts(watchers, &surface, &drawn).wrong, 0);
+    assert!(painter.renderer.sensors().get(painter.ids[0]).is_none());
+    *painter.renderer.sensors_mut() = first;
+    let (drawn, _) = painter.draw(gpu, &mut view, &surface);
+    assert_eq!(judge_counts(few, &surface, &drawn).wrong, 0);
+}
+
+#[test]
+fn planes_follow_their_sensors() {
+    let Some(gpu) = gpu() else { return };
+    let surface = globe(1);
+    let mut watchers = shell(60);
+    for (k, watcher) in watchers.iter_mut().enumerate() {
+        watcher.min_elevation_rad = None;
+        match k % 3 {
+            0 => {
+                watcher.optics = Optics::Rectangle {
+                    right_rad: 0.9,
+                    up_rad: 0.4,
+                }
+            }
+            1 => watcher.optics = Optics::Corners(vec![(1.2, -0.9), (0.3, 1.5), (-1.2, -0.6)]),
+            _ => {}
+        }
+    }
+    let mut painter = CountPainter::new(gpu, &watchers, &surface);
+    let mut view = View::default();
+    for _ in 0..20 {
+        let (drawn, _) = painter.draw(gpu, &mut view, &surface);
+        assert_eq!(judge_counts(&watchers, &surface, &drawn).wrong, 0);
+        let sensors = painter.renderer.sensors_mut();
+        sensors.remove(painter.ids.remove(5)).expect("it is there");
+        watchers.remove(5);
+        // And one takes a field of view with more sides.
+        watchers[1].optics = watchers[0].optics.clone();
+        sensors
+            .set_sensor(painter.ids[1], watchers[1].sensor())
+            .expect("a sound sensor");
+        watchers.rotate_left(1);
+        painter.ids.rotate_left(1);
+    }
+}
+
+#[test]
+fn views_and_sizes_change() {
+    let Some(gpu) = gpu() else { return };
+    let watchers = shell(200);
+    let wide = globe(1);
+    let cast = Cast::new(
+        wide.figure(),
+        &Pose::nadir(-100.0, -60.0, 5e6),
+        UVec2::new(333, 77),
+        1,
+        Terrain::Bare,
+    );
+    let other = Surface::new(&cast, DepthKind::Reversed);
+    let mut painter = CountPainter::new(gpu, &watchers, &wide);
+    let (mut first, mut second) = (View::default(), View::default());
+    for surface in [&wide, &other, &wide] {
+        for view in [&mut first, &mut second] {
+            let (drawn, _) = painter.draw(gpu, view, surface);
+            assert_eq!(judge_counts(&watchers, surface, &drawn).wrong, 0);
+        }
+    }
+    let display = painter.renderer.sensors().display().clone();
+    painter
+        .renderer
+        .sensors_mut()
+        .set_display(SensorDisplay::Blended);
+    let (blended, _) = painter.draw(gpu, &mut first, &wide);
+    painter.renderer.sensors_mut().set_display(display);
+    let (drawn, stats) = painter.draw(gpu, &mut first, &wide);
+    assert!(blended != drawn);
+    assert_eq!(judge_counts(&watchers, &wide, &drawn).wrong, 0);
+    assert!(stats.upload_bytes < 4096, "{stats:?}");
+}
+
+#[test]
+fn a_frame_that_cannot_be_drawn_leaves_the_last() {
+    let Some(gpu) = gpu() else { return };
+    let surface = globe(1);
+    let watchers = shell(10);
+    let mut painter = CountPainter::new(gpu, &watchers, &surface);
+    let mut view = View::default();
+    let unseen = globefill::Frame::new(surface.lens.camera(), SIZE);
+    let renderer = &mut painter.renderer;
+    renderer
+        .prepare(&gpu.queue, &mut view, &unseen)
+        .expect("a sound frame");
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    let early = renderer.read_coverage(&view, &mut encoder, UVec2::ONE, &readable(gpu, 4), 0);
+    assert_eq!(early, Err(RendererError::NoSuchPixel(UVec2::ONE)));
+    painter.draw(gpu, &mut view, &surface);
+    let mut broken = globefill::Frame::new(surface.lens.camera(), 2 * SIZE);
+    broken.camera.eye_ecef_m.x = f64::NAN;
+    let refused = painter.renderer.prepare(&gpu.queue, &mut view, &broken);
+    assert_eq!(
+        refused,
+        Err(RendererError::InvalidFrame("camera.eye_ecef_m"))
+    );
+    let beyond = painter
+        .renderer
+        .read_coverage(&view, &mut encoder, SIZE, &readable(gpu, 4), 0);
+    assert_eq!(beyond, Err(RendererError::NoSuchPixel(SIZE)));
 }

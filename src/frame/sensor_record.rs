@@ -28,13 +28,16 @@ pub(crate) struct SensorRecord {
     pub planes: [u32; 4],
 }
 
-/// Units of weight per optical depth: a power of two such that the sums of `sensors` sensors fit into
-/// 32 bits.
-pub(crate) fn weight_scale(sensors: usize) -> f64 {
-    let deepest = -f64::from(1.0 - MOST_OPAQUE).ln();
-    let most = sensors.max(1).next_power_of_two() as f64;
+/// Optical depth of a style.
+pub(crate) fn optical_depth(style: &SensorStyle) -> f64 {
+    -f64::from(1.0 - style.color[3].min(MOST_OPAQUE)).ln()
+}
+
+/// Units of weight per optical depth: a power of two such that sums up to `deepest`, the optical depth of
+/// all sensors together, fit into 32 bits.
+pub(crate) fn weight_scale(deepest: f64) -> f64 {
     // Half the range is left for rounding every weight up.
-    2_f64.powf((2_f64.powi(31) / (deepest * most)).log2().floor())
+    2_f64.powf((2_f64.powi(31) / deepest.max(1.0)).log2().floor())
 }
 
 impl SensorRecord {
@@ -68,7 +71,7 @@ impl SensorRecord {
     }
 
     /// Covers nothing.
-    fn nothing() -> Self {
+    pub(crate) fn nothing() -> Self {
         Self {
             cone: [-NEVER, -NEVER, 0.0, 0.0],
             ..Self::default()
@@ -153,8 +156,8 @@ pub(crate) fn planes_of(entry: &Entry, reference: &Reference, planes: &mut Vec<[
 
 /// Integer weights of a style.
 fn weight(style: &SensorStyle, scale: f64) -> [u32; 4] {
-    let [red, green, blue, alpha] = style.color;
-    let depth = -f64::from(1.0 - alpha.min(MOST_OPAQUE)).ln() * scale;
+    let [red, green, blue, _] = style.color;
+    let depth = optical_depth(style) * scale;
     [red, green, blue, 1.0].map(|part| (f64::from(part) * depth).round() as u32)
 }
 
@@ -172,11 +175,24 @@ mod tests {
             color: [1.0; 4],
             visible: true,
         };
-        for sensors in [1, 2, 3, 1000, 1 << 20] {
-            let scale = weight_scale(sensors);
+        for sensors in [1_u32, 2, 3, 1000, 1 << 20] {
+            let scale = weight_scale(f64::from(sensors) * optical_depth(&opaque));
             let weight = u64::from(weight(&opaque, scale)[3]);
-            assert!(weight * sensors as u64 <= u64::from(u32::MAX), "{sensors}");
-            assert!(scale >= 100.0 || sensors > 1 << 20);
+            assert!(
+                weight * u64::from(sensors) <= u64::from(u32::MAX),
+                "{sensors}"
+            );
         }
+    }
+
+    #[test]
+    fn faint_sensors_are_not_lost_in_a_crowd() {
+        let faint = SensorStyle {
+            color: [0.3, 0.5, 0.7, 0.001],
+            visible: true,
+        };
+        let scale = weight_scale(1e5 * optical_depth(&faint));
+        let [red, _, _, depth] = weight(&faint, scale).map(f64::from);
+        assert!((red / depth - 0.3).abs() < 1e-3, "{red} of {depth}");
     }
 }

@@ -4,8 +4,8 @@ use rayon::prelude::*;
 
 use crate::{
     frame::reference::Reference,
-    frame::sensor_record::{SensorRecord, plane_count, planes_of, weight_scale},
-    sensor_set::SensorSet,
+    frame::sensor_record::{SensorRecord, optical_depth, plane_count, planes_of, weight_scale},
+    sensor_set::{SensorSet, Version},
 };
 
 /// Sensors encoded by one task: enough to be worth handing to another core.
@@ -21,26 +21,40 @@ pub(crate) struct SensorRecords {
     first_planes: Vec<u32>,
     reference: Option<Reference>,
     weight_scale: f64,
-    /// Stamp of the set when it was last encoded.
-    encoded: u64,
+    /// Of which set, as of when.
+    encoded: Option<Version>,
 }
 
 impl SensorRecords {
     /// Brings the records up to date.
     pub(crate) fn update(&mut self, set: &SensorSet, reference: Reference) {
-        let weight_scale = weight_scale(set.len());
-        let moved = self.reference != Some(reference) || self.weight_scale != weight_scale;
-        if !moved && self.encoded == set.changed() {
+        if self.reference == Some(reference) && self.encoded == Some(set.version()) {
             return;
         }
-        let seen = if moved { 0 } else { self.encoded };
         self.first_planes.clear();
         let mut plane_total = 0;
+        let mut deepest = 0.0;
         for index in 0..set.len() {
-            self.first_planes.push(plane_total);
-            plane_total += plane_count(set.entry(index)) as u32;
+            let entry = set.entry(index);
+            let planes = plane_count(entry) as u32;
+            self.first_planes
+                .push(if planes > 0 { plane_total } else { 0 });
+            plane_total += planes;
+            deepest += optical_depth(&entry.style);
         }
-        self.records.resize(set.len(), SensorRecord::default());
+        let weight_scale = weight_scale(deepest);
+        // What was encoded of this set, in this place, on this scale, is up to date.
+        let seen = match self.encoded {
+            Some(version)
+                if version.set == set.version().set
+                    && self.reference == Some(reference)
+                    && self.weight_scale == weight_scale =>
+            {
+                version.changed
+            }
+            _ => 0,
+        };
+        self.records.resize(set.len(), SensorRecord::nothing());
         let first_planes = &self.first_planes;
         let encode = |(batch, records): (usize, &mut [SensorRecord])| {
             for (k, record) in records.iter_mut().enumerate() {
@@ -68,7 +82,7 @@ impl SensorRecords {
         }
         self.reference = Some(reference);
         self.weight_scale = weight_scale;
-        self.encoded = set.changed();
+        self.encoded = Some(set.version());
     }
 
     /// Optical depth of one unit of weight.

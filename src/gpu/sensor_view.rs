@@ -9,7 +9,7 @@ use crate::{
     gpu::sensor_pipelines::{SensorPipelines, Shown},
     gpu::stream_buffer::StreamBuffer,
     options::Frame,
-    sensor_set::{SensorDisplay, SensorSet},
+    sensor_set::{SensorDisplay, SensorSet, Version},
 };
 
 /// Entries of a page of tile.wgsl, and its bytes with its link.
@@ -35,11 +35,12 @@ pub(crate) struct SensorView {
     scene: Option<wgpu::BindGroup>,
     /// The depth last given to `count`.
     depth: Option<(wgpu::TextureView, wgpu::BindGroup)>,
-    pub shown: Shown,
+    /// What is drawn, if anything is.
+    pub shown: Option<Shown>,
     pub block_count: u32,
     tile_count: u32,
-    /// What was last uploaded for, and the stamp of its set.
-    prepared: Option<(Frame, u64)>,
+    /// What was last uploaded for.
+    prepared: Option<(Frame, Version)>,
 }
 
 /// Tiles, blocks and their lists.
@@ -71,7 +72,7 @@ impl SensorView {
             tiles: None,
             scene: None,
             depth: None,
-            shown: Shown::Blended,
+            shown: None,
             block_count: 0,
             tile_count: 0,
             prepared: None,
@@ -80,7 +81,7 @@ impl SensorView {
 
     /// Whether the view already holds this frame.
     pub(crate) fn holds(&self, frame: &Frame, set: &SensorSet) -> bool {
-        self.prepared == Some((*frame, set.changed()))
+        self.prepared == Some((*frame, set.version()))
     }
 
     /// Encodes and uploads what changed; returns the bytes.
@@ -100,12 +101,8 @@ impl SensorView {
         uniform.weight[0] = self.records.depth_per_weight() as f32;
         uniform.counts[..2].copy_from_slice(&[set.len() as u32, pages]);
         let colors: Vec<[f32; 4]> = match set.display() {
-            SensorDisplay::Blended => {
-                self.shown = Shown::Blended;
-                Vec::new()
-            }
+            SensorDisplay::Blended => Vec::new(),
             SensorDisplay::Coverage(colors) => {
-                self.shown = Shown::Coverage;
                 uniform.counts[3] = u32::from(colors.colors_gaps());
                 colors.premultiplied().collect()
             }
@@ -133,7 +130,7 @@ impl SensorView {
         if self.tiles.as_ref().is_none_or(|tiles| tiles.key != key) {
             self.tiles = Some(Tiles::new(device, pipelines, key));
         }
-        self.prepared = Some((*with.frame, set.changed()));
+        self.prepared = Some((*with.frame, set.version()));
         bytes
     }
 
@@ -151,6 +148,9 @@ impl SensorView {
         encoder: &mut wgpu::CommandEncoder,
         depth: &wgpu::TextureView,
     ) {
+        if self.shown.is_none() {
+            return;
+        }
         self.bind_depth(device, pipelines, depth);
         let (Some(scene), Some(tiles), Some((_, depth))) = (&self.scene, &self.tiles, &self.depth)
         else {
@@ -197,7 +197,7 @@ impl SensorView {
             &self.scene,
             &self.tiles,
             &self.depth,
-            pipelines.get(self.shown),
+            self.shown.and_then(|shown| pipelines.get(shown)),
         ) else {
             return;
         };
@@ -208,16 +208,17 @@ impl SensorView {
         pass.draw(0..4, 0..self.block_count);
     }
 
-    /// Records the counting at one pixel into `answer`, which starts with the pixel.
+    /// Records the counting at one pixel into `answer`, which starts with the pixel; answers whether
+    /// there was a depth to look at.
     pub(crate) fn count_at(
         &self,
         device: &wgpu::Device,
         pipelines: &SensorPipelines,
         encoder: &mut wgpu::CommandEncoder,
         answer: &wgpu::Buffer,
-    ) {
+    ) -> bool {
         let (Some(scene), Some((_, depth))) = (&self.scene, &self.depth) else {
-            return;
+            return false;
         };
         let answer = group(device, &pipelines.answer_layout, &[answer]);
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
@@ -231,12 +232,15 @@ impl SensorView {
             pass.set_pipeline(pipeline);
             pass.dispatch_workgroups(1, 1, 1);
         }
+        true
     }
 }
 
-/// Most workgroups that binning a picture of this size dispatches.
-pub(crate) fn workgroups(size_px: UVec2) -> u32 {
-    divided(size_px, TILE).element_product().div_ceil(WORKGROUP)
+/// Whether a device can bin a picture of this size.
+pub(crate) fn has_room_for_tiles(limits: &wgpu::Limits, size_px: UVec2) -> bool {
+    let tiles = divided(size_px, TILE).element_product();
+    tiles.div_ceil(WORKGROUP) <= limits.max_compute_workgroups_per_dimension
+        && u64::from(tiles) * TILE_BYTES <= limits.max_storage_buffer_binding_size
 }
 
 /// How many tiles, blocks and pages there are.

@@ -52,8 +52,10 @@ impl StreamBuffer {
 
 /// Bytes compared at a time.
 const BLOCK: usize = 128;
-/// Runs nearer than this are written as one: a write costs about as much as copying so many bytes.
-const JOINED: usize = 512;
+/// Runs nearer than this are written as one, and more than so many runs too: every write makes a
+/// staging buffer, which costs more than copying what lies between.
+const JOINED: usize = 2048;
+const MOST_RUNS: usize = 16;
 
 /// Where `new` differs from what `old` holds there.
 fn changed_runs(old: &[u8], new: &[u8]) -> Vec<Range<usize>> {
@@ -63,8 +65,9 @@ fn changed_runs(old: &[u8], new: &[u8]) -> Vec<Range<usize>> {
         if old.get(block.clone()) == Some(&new[block.clone()]) {
             continue;
         }
+        let full = runs.len() == MOST_RUNS;
         match runs.last_mut() {
-            Some(run) if start - run.end < JOINED => run.end = block.end,
+            Some(run) if start - run.end < JOINED || full => run.end = block.end,
             _ => runs.push(block),
         }
     }

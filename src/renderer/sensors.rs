@@ -12,7 +12,7 @@ use crate::{
     frame::sight_uniform::SightUniform,
     frame_stats::FrameStats,
     gpu::sensor_pipelines::{SensorPipelines, Shown},
-    gpu::sensor_view::{SensorFrame, SensorView, WORKGROUP, workgroups},
+    gpu::sensor_view::{self, SensorFrame, SensorView},
     options::Frame,
     sensor_set::SensorDisplay,
     view::View,
@@ -31,28 +31,31 @@ impl Renderer {
         gaps || self.sensors.visible_count() > 0
     }
 
-    /// Whether the device can draw the sensors, if any, in a picture of this size.
-    pub(super) fn check_sensors(&self, size_px: UVec2) -> Result<(), RendererError> {
+    /// How the sensors see the frame, if there is anything to see and the device can draw it.
+    pub(super) fn sensor_sight(&self, frame: &Frame) -> Result<Option<Sight>, RendererError> {
         if !self.shows_sensors() {
-            return Ok(());
+            return Ok(None);
         }
+        let sight = Sight::new(self.sensors.ellipsoid(), 0.0, frame, &self.options)?;
         let limits = self.device.limits();
-        if limits.max_compute_invocations_per_workgroup < WORKGROUP
+        if limits.max_compute_invocations_per_workgroup < sensor_view::WORKGROUP
             || limits.max_storage_buffers_per_shader_stage < STORAGE_BUFFERS
         {
             return Err(RendererError::Unsupported(
                 "sensors need compute shaders with seven storage buffers",
             ));
         }
-        if workgroups(size_px) > limits.max_compute_workgroups_per_dimension {
+        if !sensor_view::has_room_for_tiles(&limits, frame.size_px) {
             return Err(RendererError::InvalidFrame("size_px"));
         }
         let sensors = self.sensors.len();
-        let most = limits.max_storage_buffer_binding_size as usize / size_of::<SensorRecord>();
-        if sensors > most {
+        // Buffers grow to powers of two, which must be bound whole.
+        let most_bytes = 1 << limits.max_storage_buffer_binding_size.ilog2();
+        let most = most_bytes as usize / size_of::<SensorRecord>();
+        if sensors > most || self.sensors.plane_count() as u64 * 16 > most_bytes {
             return Err(RendererError::TooManySensors { sensors, most });
         }
-        Ok(())
+        Ok(Some(sight))
     }
 
     /// Encodes and uploads the sensors that changed, or all if the camera did, and adds to the stats.
@@ -61,13 +64,18 @@ impl Renderer {
         queue: &wgpu::Queue,
         view: &mut View,
         frame: &Frame,
+        sight: Option<&Sight>,
         stats: &mut FrameStats,
-    ) -> Result<(), RendererError> {
+    ) {
         let set = &self.sensors;
-        if !self.shows_sensors() {
-            view.sensors = None;
-            return Ok(());
-        }
+        let Some(sight) = sight else {
+            // Sensors that are hidden for a while keep their buffers.
+            match &mut view.sensors {
+                Some(sensors) if !set.is_empty() => sensors.shown = None,
+                none => *none = None,
+            }
+            return;
+        };
         let shown = match set.display() {
             SensorDisplay::Blended => Shown::Blended,
             SensorDisplay::Coverage(_) => Shown::Coverage,
@@ -79,14 +87,14 @@ impl Renderer {
         let sensors = view
             .sensors
             .get_or_insert_with(|| SensorView::new(&self.device));
+        sensors.shown = Some(shown);
         if !sensors.holds(frame, set) {
-            let sight = Sight::new(set.ellipsoid(), 0.0, frame, &self.options)?;
             let reference = Reference::new(set.ellipsoid(), frame.camera.eye_ecef_m);
             let depth = self.options.depth;
             let with = SensorFrame {
                 set,
                 frame,
-                uniform: SightUniform::new(&sight, &reference, depth, frame.size_px),
+                uniform: SightUniform::new(sight, &reference, depth, frame.size_px),
                 reference,
             };
             stats.upload_bytes += sensors.prepare(&self.device, queue, pipelines, with);
@@ -95,7 +103,6 @@ impl Renderer {
         stats.dispatches = pipelines.binning.len() as u32;
         stats.draws += 1;
         stats.vertices += 4 * u64::from(sensors.block_count);
-        Ok(())
     }
 
     pub(super) fn bin_sensors(
@@ -123,7 +130,8 @@ impl Renderer {
     /// Which sensors they are, [`SensorSet::covering`](crate::SensorSet::covering) says.
     ///
     /// # Errors
-    /// [`RendererError::NoSuchPixel`] if the pixel lies outside the prepared frame.
+    /// [`RendererError::NoSuchPixel`] if the pixel lies outside the prepared frame, or nothing was
+    /// counted.
     pub fn read_coverage(
         &self,
         view: &View,
@@ -140,13 +148,19 @@ impl Renderer {
             encoder.clear_buffer(into, offset, Some(4));
             return Ok(());
         };
+        if sensors.shown.is_none() {
+            encoder.clear_buffer(into, offset, Some(4));
+            return Ok(());
+        }
         let question = [pixel.x, pixel.y, 0, 0];
         let answer = self.device.create_buffer_init(&BufferInitDescriptor {
             label: Some("globefill answer"),
             contents: bytemuck::cast_slice(&question),
             usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
         });
-        sensors.count_at(&self.device, pipelines, encoder, &answer);
+        if !sensors.count_at(&self.device, pipelines, encoder, &answer) {
+            return Err(RendererError::NoSuchPixel(pixel));
+        }
         encoder.copy_buffer_to_buffer(&answer, 8, into, offset, Some(4));
         Ok(())
     }

@@ -4,8 +4,8 @@ use std::fmt;
 
 use glam::{DVec2, DVec3};
 use globefill::{
-    CoverageColors, FrameStats, Renderer, RendererOptions, SensorDisplay, SensorId, SensorStyle,
-    View, wgpu,
+    CoverageColors, Ellipsoid, FrameStats, Renderer, RendererOptions, SensorDisplay, SensorId,
+    SensorSet, SensorStyle, View, wgpu,
 };
 use rayon::prelude::*;
 
@@ -13,7 +13,7 @@ use super::{
     draw::{COLOR, id_color, id_of_color, paint},
     headless::Gpu,
     score::BAND_PX,
-    surface::{Surface, Terrain, sample_positions},
+    surface::{Surface, sample_positions},
     watcher::Watcher,
 };
 
@@ -36,7 +36,12 @@ impl CountPainter {
         let mut renderer = Renderer::new(&gpu.device, options).expect("the options are sound");
         let colors = (0..=watchers.len() as u32).map(id_color).collect();
         let colors = CoverageColors::table(colors).expect("sound colours");
+        let figure = surface.figure();
         let sensors = renderer.sensors_mut();
+        *sensors = SensorSet::new(Ellipsoid {
+            a_m: figure.a_m,
+            b_m: figure.b_m,
+        });
         sensors.set_display(SensorDisplay::Coverage(colors));
         let ids = watchers
             .iter()
@@ -172,13 +177,10 @@ fn points_about(surface: &Surface, pixel: usize, middle_px: DVec2, radius_px: f6
     let eye_m = lens.eye_m;
     let depth = surface.depths[pixel];
     let mut points: Vec<DVec3> = surface.points_m[pixel].into_iter().collect();
-    // Over the bare ellipsoid the surface is known exactly.
-    if surface.terrain != Terrain::Bare {
-        points.extend(
-            [depth.next_up(), depth.next_down()]
-                .map(|depth| eye_m + lens.ray(middle_px) * lens.distance_m(depth)),
-        );
-    }
+    points.extend(
+        [depth.next_up(), depth.next_down()]
+            .map(|depth| eye_m + lens.ray(middle_px) * lens.distance_m(depth)),
+    );
     for k in 0..24 {
         let angle = f64::from(k) * std::f64::consts::TAU / 24.0;
         let ray = lens.ray(middle_px + radius_px * DVec2::from_angle(angle));

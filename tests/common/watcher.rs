@@ -31,7 +31,15 @@ pub struct Watcher {
 }
 
 impl Watcher {
-    /// At a height, looking `off_nadir_rad` away from straight down towards `heading_rad`.
+    /// On another figure than the Earth's.
+    pub fn moved_to(mut self, ellipsoid: Ellipsoid) -> Self {
+        let (at, height_m) = self.figure.geodetic(self.pose.apex_ecef_m);
+        self.figure = Figure::new(ellipsoid);
+        self.pose.apex_ecef_m = self.figure.ecef(at, height_m);
+        self
+    }
+
+    /// Above the Earth at a height, looking `off_nadir_rad` away from straight down towards `heading_rad`.
     pub fn new(
         at: LonLat,
         height_m: f64,
