@@ -119,7 +119,9 @@ impl CurveOn {
 /// On the sphere R·sin(r/R). In the tangent plane, that is to the first order in σ = r/b, a circle
 /// of the ellipsoid is a circle too; what the ellipsoid adds is of the order e²σ², and analytic in
 /// the azimuth: on circles of radius 1 about it, where |sin|, |cos| ≤ cosh 1, it stays below
-/// e²·a·σ²/2, and Cauchy's inequality brings n! for its derivatives.
+/// e²·a·σ²/2, and Cauchy's inequality brings n! for its derivatives. (That constant is not derived
+/// but found, with a margin of two or more for large radii; a test holds the
+/// whole bound against Fourier series of circles of all sizes up to a flattening of 1/50.)
 fn circle_derivative_m(ellipsoid: &Ellipsoid, radius_m: f64, order: i32) -> f64 {
     let a_m = ellipsoid.a_m.max(ellipsoid.b_m);
     let arc = radius_m / ellipsoid.a_m.min(ellipsoid.b_m);
