@@ -93,6 +93,10 @@
 //! are joined. Poles, the antimeridian and regions larger than a hemisphere are ordinary. Rings that
 //! cross themselves are filled by the even-odd rule; [`FillMesh::repairs`] tells what was repaired.
 //!
+//! A [`Zone`] is a circle, annulus, sector or corridor measured along the surface, and a [`Region`]
+//! like any other. Its boundary winds round what is inside at least once and is filled once,
+//! however often it winds.
+//!
 //! # Accuracy
 //!
 //! [`Frame::pixel_error`] bounds how far a drawn boundary may lie from the true one, to about 1/32 px,

@@ -81,9 +81,13 @@ pub enum Zone {
     /// The points up to half of `width_m` away from the line through `points`, whose legs are
     /// shortest paths: round at both ends and on the outer side of bends.
     ///
-    /// A corridor that crosses or touches itself is the union, covered once. Legs that run back
-    /// along others, or nearly so (below some 10⁻⁶ rad), may be refused as
+    /// A corridor that crosses or touches itself is the union, covered once; it must leave some of
+    /// the globe uncovered. Legs that run back along others, or nearly so (below some 10⁻⁶ rad), and
+    /// tangles of many crossings within metres may be refused as
     /// [`Tangled`](crate::RegionError::Tangled). One point alone is a circle.
+    ///
+    /// Where a line has many points within one width, its sides cross each other often: a thousand
+    /// points within ten widths take seconds.
     Corridor {
         /// The line. Points nearer than 0.1 mm to their predecessor are left out.
         points: Vec<LonLat>,

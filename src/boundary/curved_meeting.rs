@@ -17,16 +17,30 @@ const TOUCH_M: f64 = 1e-5;
 /// Pieces that lie no further, metres, beside their chords are straight enough to be crossed.
 const STRAIGHT_M: f64 = 4e-6;
 
+/// An edge's curve with the hull of the whole, which most pairs need no more than.
+pub(crate) struct Traced {
+    curve: CurveOn,
+    hull: Hull,
+}
+
+impl Traced {
+    pub(crate) fn new(ellipsoid: &Ellipsoid, edge: &Edge) -> Self {
+        let curve = edge.curve().on(ellipsoid);
+        let hull = Hull::of(&curve, 0.0, 1.0);
+        Self { curve, hull }
+    }
+}
+
 /// Bisects both curves until their hulls part or cross.
 pub(crate) fn curved_meetings(
     edges: [&Edge; 2],
-    first: &CurveOn,
-    second: &CurveOn,
+    traced: [&Traced; 2],
     found: &mut impl FnMut(Meeting),
 ) {
+    let [first, second] = traced.map(|edge| &edge.curve);
     let mut touch = None;
     let mut crossings: Vec<DVec3> = Vec::new();
-    let mut stack = vec![(Hull::of(first, 0.0, 1.0), Hull::of(second, 0.0, 1.0))];
+    let mut stack = vec![(traced[0].hull, traced[1].hull)];
     let mut budget = 4096;
     while let Some((a, b)) = stack.pop() {
         if a.distance_m(&b) > a.radius_m + b.radius_m {
@@ -194,10 +208,10 @@ const PARTING_SINE: f64 = 1e-2;
 /// common tangent, as a corridor's sides and ends do, they only touch there.
 pub(crate) fn meetings_beyond_common_node(
     edges: [&Edge; 2],
-    first: &CurveOn,
-    second: &CurveOn,
+    traced: [&Traced; 2],
     found: &mut impl FnMut(Meeting),
 ) {
+    let [first, second] = traced.map(|edge| &edge.curve);
     let node = if edges[0].from == edges[1].from || edges[0].from == edges[1].to {
         edges[0].from
     } else {
@@ -221,7 +235,7 @@ pub(crate) fn meetings_beyond_common_node(
         return found(Meeting::Unclear);
     }
     let common = first.ellipsoid().ecef(node_position(edges[0], node), 0.0);
-    curved_meetings(edges, first, second, &mut |meeting| match meeting {
+    curved_meetings(edges, traced, &mut |meeting| match meeting {
         Meeting::NodeOnFirst(end) | Meeting::NodeOnSecond(end) if end == node => {}
         Meeting::Crossing(point) => {
             let position = first.ellipsoid().ecef(point.lon_lat(), 0.0);
@@ -244,13 +258,12 @@ fn node_position(edge: &Edge, node: u32) -> LonLat {
 
 /// Arcs of one circle do not cross: they have an end of one in common with the other, or nothing.
 pub(crate) fn same_circle_meetings(
-    ellipsoid: &Ellipsoid,
-    first: &Edge,
-    second: &Edge,
+    [first, second]: [&Edge; 2],
+    traced: [&Traced; 2],
     mut found: impl FnMut(Meeting),
 ) {
-    let ends_on = |arc: &Edge, other: &Edge| {
-        let curve = arc.curve().on(ellipsoid);
+    let ends_on = |arc: &Edge, traced: &Traced, other: &Edge| {
+        let curve = &traced.curve;
         let nodes = [(other.from, other.start), (other.to, other.end)];
         nodes
             .into_iter()
@@ -262,11 +275,11 @@ pub(crate) fn same_circle_meetings(
             .map(|(node, _)| node)
             .collect::<Vec<_>>()
     };
-    let on_first = ends_on(first, second);
+    let on_first = ends_on(first, traced[0], second);
     on_first
         .into_iter()
         .for_each(|node| found(Meeting::NodeOnFirst(node)));
-    let on_second = ends_on(second, first);
+    let on_second = ends_on(second, traced[1], first);
     on_second
         .into_iter()
         .for_each(|node| found(Meeting::NodeOnSecond(node)));

@@ -3,7 +3,7 @@
 use crate::{
     boundary::boundary_graph::Edge,
     boundary::curved_meeting::{
-        curved_meetings, meetings_beyond_common_node, same_circle_meetings,
+        Traced, curved_meetings, meetings_beyond_common_node, same_circle_meetings,
     },
     boundary::edge_grid::LatticeBox,
     boundary::lattice::{LatticePoint, TURN, orientation},
@@ -24,11 +24,11 @@ pub(crate) enum Meeting {
     Unclear,
 }
 
-/// Calls `found` for everything that two edges have in common.
-pub(crate) fn meetings(
-    ellipsoid: &Ellipsoid,
-    first: &Edge,
-    second: &Edge,
+/// Calls `found` for everything that two edges have in common. `traced` gives their curves where
+/// they are needed.
+pub(crate) fn meetings<'a>(
+    [first, second]: [&Edge; 2],
+    traced: impl Fn() -> [&'a Traced; 2],
     mut found: impl FnMut(Meeting),
 ) {
     if first.kind == CurveKind::Straight && second.kind == CurveKind::Straight {
@@ -38,23 +38,19 @@ pub(crate) fn meetings(
         return;
     }
     if matches!(first.kind, CurveKind::Circle(_)) && first.kind == second.kind {
-        return same_circle_meetings(ellipsoid, first, second, found);
+        return same_circle_meetings([first, second], traced(), found);
     }
     let shared = [second.from, second.to]
         .iter()
         .filter(|&&node| node == first.from || node == first.to)
         .count();
     match shared {
-        0 => {
-            let curves = [first, second].map(|edge| edge.curve().on(ellipsoid));
-            curved_meetings([first, second], &curves[0], &curves[1], &mut found);
-        }
+        0 => curved_meetings([first, second], traced(), &mut found),
         // From a common end two curves of one kind part for good (geodesics up to the antipode,
         // which edges never reach); how they part is looked at where they do.
         1 if first.is_also(second.kind) || second.is_also(first.kind) => {}
         1 if first.kind.is_of_zones() || second.kind.is_of_zones() => {
-            let curves = [first, second].map(|edge| edge.curve().on(ellipsoid));
-            meetings_beyond_common_node([first, second], &curves[0], &curves[1], &mut found);
+            meetings_beyond_common_node([first, second], traced(), &mut found);
         }
         _ => found(Meeting::Unclear),
     }
@@ -172,9 +168,12 @@ mod tests {
     fn all(kind: EdgeKind, lines: [[(f64, f64); 2]; 2]) -> Vec<Meeting> {
         let [first, second] = edges(kind, lines);
         let mut all = Vec::new();
-        meetings(&Ellipsoid::WGS84, &first, &second, |meeting| {
-            all.push(meeting)
-        });
+        let traced = [&first, &second].map(|edge| Traced::new(&Ellipsoid::WGS84, edge));
+        meetings(
+            [&first, &second],
+            || [&traced[0], &traced[1]],
+            |meeting| all.push(meeting),
+        );
         all
     }
 

@@ -1,13 +1,17 @@
 //! Noding: edges that meet inside get a common node there, or are listed as overlapping.
 
+use std::sync::OnceLock;
+
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::{
     boundary::boundary_graph::{BoundaryGraph, DirectedEdge, Edge},
+    boundary::curved_meeting::Traced,
     boundary::edge_grid::{EdgeGrid, LatticeBox},
     boundary::lattice::LatticePoint,
     boundary::meeting::{Meeting, meetings},
     boundary::rings::RingWalk,
+    curve::CurveKind,
     ellipsoid::Ellipsoid,
     error::RegionError,
     repair::{Place, Repair, RepairKind},
@@ -165,19 +169,27 @@ fn find_meetings(
         .iter()
         .map(|&edge| graph.edges[edge as usize])
         .collect();
+    // Curves are traced once, by whoever needs them first; straight edges need none.
+    let all_straight = edges.iter().all(|edge| edge.kind == CurveKind::Straight);
+    let trace_count = if all_straight { 0 } else { edges.len() };
+    let traces: Vec<OnceLock<Box<Traced>>> = std::iter::repeat_with(OnceLock::new)
+        .take(trace_count)
+        .collect();
     EdgeGrid::new(&edges)
         .pairs(
             |index| candidates[index as usize] as usize >= first_fresh,
             |a, b, found| {
                 let (first, second) = (candidates[a as usize], candidates[b as usize]);
-                meetings(
-                    ellipsoid,
-                    &edges[a as usize],
-                    &edges[b as usize],
-                    |meeting| {
-                        found.push((first, second, meeting));
-                    },
-                );
+                let (a, b) = (a as usize, b as usize);
+                let traced = || {
+                    [a, b].map(|index| {
+                        let trace = || Box::new(Traced::new(ellipsoid, &edges[index]));
+                        &**traces[index].get_or_init(trace)
+                    })
+                };
+                meetings([&edges[a], &edges[b]], traced, |meeting| {
+                    found.push((first, second, meeting));
+                });
             },
         )
         .ok()

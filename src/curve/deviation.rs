@@ -108,7 +108,7 @@ impl CurveOn {
             // most; for distances h up to 0.3 R the ellipsoid adds what it adds to geodesics.
             Course::Beside(beside) => {
                 let b_m = self.ellipsoid.a_m.min(self.ellipsoid.b_m);
-                4.0 * a_m * (beside.length_m * share / b_m).abs().powi(order)
+                3.0 * a_m * (beside.length_m * share / b_m).abs().powi(order)
             }
         }
     }
@@ -119,7 +119,9 @@ impl CurveOn {
 /// On the sphere R·sin(r/R). In the tangent plane, that is to the first order in σ = r/b, a circle
 /// of the ellipsoid is a circle too; what the ellipsoid adds is of the order e²σ², and analytic in
 /// the azimuth: on circles of radius 1 about it, where |sin|, |cos| ≤ cosh 1, it stays below
-/// e²·a·σ²/2, and Cauchy's inequality brings n! for its derivatives.
+/// e²·a·σ²/2, and Cauchy's inequality brings n! for its derivatives. (That constant is not derived
+/// but found, with a margin of two or more for large radii; a test holds the
+/// whole bound against Fourier series of circles of all sizes up to a flattening of 1/50.)
 fn circle_derivative_m(ellipsoid: &Ellipsoid, radius_m: f64, order: i32) -> f64 {
     let a_m = ellipsoid.a_m.max(ellipsoid.b_m);
     let arc = radius_m / ellipsoid.a_m.min(ellipsoid.b_m);
@@ -305,8 +307,8 @@ mod tests {
             let fifth = (p[6] - p[0] - 4.0 * (p[5] - p[1]) + 5.0 * (p[4] - p[2])) / (2.0 * h.powi(5));
             let a_m = ellipsoid.a_m.max(ellipsoid.b_m);
             // Differences are means of derivatives near by, less sharp by a percent.
-            prop_assert!(third.length() * 1.02 < 4.0 * a_m, "{}", third.length() / a_m);
-            prop_assert!(fifth.length() * 1.05 < 4.0 * a_m, "{}", fifth.length() / a_m);
+            prop_assert!(third.length() * 1.02 < 3.0 * a_m, "{}", third.length() / a_m);
+            prop_assert!(fifth.length() * 1.05 < 3.0 * a_m, "{}", fifth.length() / a_m);
         }
 
         #[test]
