@@ -3,30 +3,28 @@
 use std::time::Instant;
 
 use globefill::{
-    FieldOfView, FillMesh, FillStyle, Frame, FrameStats, Pose, Renderer, RendererOptions, Sensor,
+    FieldOfView, FillMesh, Frame, FrameStats, Pose, Renderer, RendererOptions, Sensor,
     SensorDisplay, SensorId, SensorSet, SensorStyle, View, wgpu,
 };
 
 use crate::{
     cli::Arguments,
     colors::Color,
+    country_layer::CountryLayer,
     host::{
         gpu::Gpu,
         ground::{Ground, GroundPipelines},
-        palette,
         targets::Targets,
         times::milliseconds_since,
     },
 };
 
-/// The countries are a dark map on which the footprints shine.
-const COUNTRY_OPACITY: f32 = 0.6;
-const COUNTRY_BRIGHTNESS: f32 = 0.12;
-
 /// Targets, and a renderer that matches them.
 pub struct Drawing {
     pub targets: Targets,
     pipelines: GroundPipelines,
+    options: RendererOptions,
+    countries: Option<CountryLayer>,
     renderer: Renderer,
     view: View,
     sensors: Vec<SensorId>,
@@ -55,26 +53,31 @@ impl Drawing {
         Ok(Self {
             pipelines: ground.pipelines(gpu, &targets.format),
             targets,
+            options,
+            countries: None,
             renderer: Renderer::new(&gpu.device, options).map_err(|error| error.to_string())?,
             view: View::default(),
             sensors: Vec::new(),
         })
     }
 
-    pub fn insert_countries(&mut self, mesh: FillMesh) -> Result<(), String> {
-        let colors = palette::colors(&mesh);
-        let id = self.renderer.insert(mesh);
-        for (fill, [red, green, blue, _]) in (0..).zip(colors) {
-            let [red, green, blue] = [red, green, blue].map(|part| part * COUNTRY_BRIGHTNESS);
-            let style = FillStyle {
-                color: [red, green, blue, COUNTRY_OPACITY],
-                ..Default::default()
-            };
-            self.renderer
-                .set_style(id, fill, style)
-                .map_err(|error| error.to_string())?;
-        }
+    /// Draws the countries, to be laid beneath the footprints of every frame.
+    pub fn set_countries(
+        &mut self,
+        gpu: &Gpu,
+        ground: &Ground,
+        frame: &Frame,
+        mesh: FillMesh,
+    ) -> Result<(), String> {
+        let ground = (ground, &self.pipelines);
+        let layer = CountryLayer::new(gpu, ground, &self.targets, self.options, frame, mesh)?;
+        self.countries = Some(layer);
         Ok(())
+    }
+
+    /// What drawing the countries took.
+    pub fn countries_ms(&self) -> Option<f64> {
+        self.countries.as_ref().map(|layer| layer.drawn_ms)
     }
 
     /// Adds a sensor for every pose; those without one are hidden until they get one.
@@ -163,10 +166,13 @@ impl Drawing {
             .draw_ground(&mut encoder, ground, &self.pipelines, false);
         self.renderer
             .count(&mut self.view, &mut encoder, &self.targets.depth_view);
-        self.renderer.resolve(
-            &self.view,
-            &mut self.targets.fill_pass(&mut encoder, wgpu::LoadOp::Load),
-        );
+        {
+            let mut pass = self.targets.fill_pass(&mut encoder, wgpu::LoadOp::Load);
+            if let Some(countries) = &self.countries {
+                countries.draw(&mut pass);
+            }
+            self.renderer.resolve(&self.view, &mut pass);
+        }
         gpu.queue.submit([encoder.finish()]);
         let script_ms = milliseconds_since(start);
         gpu.wait()?;

@@ -5,6 +5,7 @@ mod circles;
 mod cli;
 mod colors;
 mod constellation;
+mod country_layer;
 mod drawing;
 mod elements;
 mod field_of_view;

@@ -61,10 +61,15 @@ pub fn run(arguments: &Arguments, progress: &Progress) -> Result<(), String> {
         sample_count: 1,
     };
     let targets = Targets::new(&gpu, arguments.size, format, eye.clear_depth())?;
+    let frame = Frame {
+        terrain: ground.heights(),
+        host_pixel_error: 0.0,
+        ..Frame::new(eye.camera, arguments.size)
+    };
     let mut drawing = Drawing::new(&gpu, &ground, targets)?;
     if !arguments.no_countries {
         progress.step("meshing the countries");
-        drawing.insert_countries(countries()?)?;
+        drawing.set_countries(&gpu, &ground, &frame, countries()?)?;
     }
     progress.step("measuring how deep footprints overlap");
     drawing.insert_sensors(arguments, &scene.field_of_view, &scene.poses(0))?;
@@ -78,11 +83,7 @@ pub fn run(arguments: &Arguments, progress: &Progress) -> Result<(), String> {
     let mut film = Film {
         arguments,
         progress,
-        frame: Frame {
-            terrain: ground.heights(),
-            host_pixel_error: 0.0,
-            ..Frame::new(eye.camera, arguments.size)
-        },
+        frame,
         gpu,
         ground,
         scene,
@@ -181,6 +182,7 @@ impl Film<'_> {
             let mut stats = self.costs.summary(sensors);
             stats["mean_overlap"] = json!(overlap.mean);
             stats["mode"] = json!(self.mode());
+            stats["countries_ms"] = json!(self.drawing.countries_ms());
             stats["adapter"] = json!(self.gpu.name);
             let mut outputs = Outputs::default();
             outputs.add(path, format!("{stats:#}\n").into_bytes());
