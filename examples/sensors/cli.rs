@@ -107,7 +107,10 @@ pub struct Arguments {
     /// out/sensors
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// What was drawn and what it cost, medians over the frames, JSON
+    /// What was drawn and what it cost, JSON: medians over the frames by the clock, without
+    /// propagation. update_us_per_sensor: moving all sensors and preparing the frame (on one core
+    /// with RAYON_NUM_THREADS=1); script_ms: that and recording and submitting; frame_ms: all of it
+    /// until the GPU is idle; upload_bytes: a sensor and frame
     #[arg(long, value_name = "FILE")]
     pub stats: Option<PathBuf>,
 }
