@@ -30,42 +30,71 @@ struct Sensor {
 
 // Bounds of the least slack at a place, as far as that is known.
 fn slack_of(index: u32, place: Place) -> vec2<f32> {
-    let sensor = sensors[index];
-    let apex = sensor.rise.z;
-    let to = select(place.from_foot, place.from_eye, apex > 0.5);
-    let radius = select(place.foot_known, place.known, apex > 0.5);
-    let along = dot(sensor.axis.xyz, to);
-    let beside = to - along * sensor.axis.xyz;
-    let out = length(sensor.across.xyz + beside) + length(sensor.across.xyz);
-    let outward = dot(beside, 2.0 * sensor.across.xyz + beside) / max(out, 1e-30);
-    let outer = sensor.cone.x + sensor.axis.w * along - sensor.across.w * outward;
-    let inner = sensor.cone.w * outward - sensor.cone.z * along - sensor.cone.y;
-    var least = min(outer, inner);
-    for (var k = 0u; k < sensor.planes.y; k += 1u) {
-        let plane = planes[sensor.planes.x + k];
-        least = min(least, plane.w + dot(plane.xyz, to));
+    var from_apex = false;
+    var to = place.from_foot;
+    var radius = place.foot_known;
+    if APEXES {
+        from_apex = sensors[index].rise.z > 0.5;
+        to = select(to, place.from_eye, from_apex);
+        radius = select(radius, place.known, from_apex);
     }
-    var bounds = vec2<f32>(least - radius, least + radius);
-    let on_limb = vec2<f32>(sensor.limb.w);
-    let over_limb = sensor.rise.w + sensor.rise.y * place.over;
-    let limb = select(on_limb, over_limb, place.outside) + dot(sensor.limb.xyz, to);
-    let limb_spread = radius * length(sensor.limb.xyz);
-    bounds = min(bounds, limb + vec2<f32>(-limb_spread, limb_spread));
-    // A loop, since software rasterisers walk through an `if` that no lane takes.
-    for (var once = sensor.line.w > -1.0; once; once = false) {
-        let distance = length(sensor.line.xyz + to);
-        let nearer = length(sensor.line.xyz);
-        let longer = dot(to, 2.0 * sensor.line.xyz + to) / max(distance + nearer, 1e-30);
-        let sine = sensor.line.w;
-        let stretch_eye = place.stretch - place.stretched;
-        let elevation = sensor.rise.x + dot(sensor.limb.xyz, place.from_foot)
-            - stretch_eye * (apex * place.above_eye + sine * longer)
-            - place.stretched * (apex * place.height + sine * distance);
-        let reach = place.foot_known;
-        let spread = reach * 1.05 * (2.0 + (distance + reach) / sight.ellipsoid.w);
-        bounds = min(bounds, elevation + vec2<f32>(-spread, spread));
+    var least = cone_slack(index, to);
+    if CORNERS {
+        let list = sensors[index].planes;
+        for (var k = list.x; k < list.x + list.y; k += 1u) {
+            least = min(least, planes[k].w + dot(planes[k].xyz, to));
+        }
+    }
+    let known = vec2<f32>(-radius, radius);
+    var bounds = min(least + known, limb_slack(index, to, place, known));
+    if ELEVATIONS {
+        // A loop that runs once or never: software rasterisers walk through an `if` that no lane takes.
+        for (var once = sensors[index].line.w > -1.0; once; once = false) {
+            bounds = min(bounds, elevation_slack(index, to, place, from_apex));
+        }
     }
     return bounds;
+}
+
+// Distance from the outer cone inwards, or from the inner one outwards if that is less.
+fn cone_slack(index: u32, to: vec3<f32>) -> f32 {
+    let axis = sensors[index].axis;
+    let across = sensors[index].across;
+    let along = dot(axis.xyz, to);
+    let beside = to - along * axis.xyz;
+    let out = length(across.xyz + beside) + length(across.xyz);
+    let outward = dot(beside, 2.0 * across.xyz + beside) / max(out, 1e-30);
+    let outer = sensors[index].cone.x + axis.w * along - across.w * outward;
+    if !INNER_CONES {
+        return outer;
+    }
+    let cone = sensors[index].cone;
+    return min(outer, cone.w * outward - cone.z * along - cone.y);
+}
+
+fn limb_slack(index: u32, to: vec3<f32>, place: Place, known: vec2<f32>) -> vec2<f32> {
+    let plane = sensors[index].limb;
+    var slack = vec2<f32>(plane.w);
+    if APEXES {
+        let over_limb = sensors[index].rise.w + sensors[index].rise.y * place.over;
+        slack = select(slack, over_limb, place.outside);
+    }
+    return slack + dot(plane.xyz, to) + known * length(plane.xyz);
+}
+
+fn elevation_slack(index: u32, to: vec3<f32>, place: Place, from_apex: bool) -> vec2<f32> {
+    let line = sensors[index].line;
+    let distance = length(line.xyz + to);
+    let longer = dot(to, 2.0 * line.xyz + to) / max(distance + length(line.xyz), 1e-30);
+    let stretch_eye = place.stretch - place.stretched;
+    let height = select(0.0, place.height, from_apex);
+    let above_eye = select(0.0, place.above_eye, from_apex);
+    let slack = sensors[index].rise.x + dot(sensors[index].limb.xyz, place.from_foot)
+        - stretch_eye * (above_eye + line.w * longer)
+        - place.stretched * (height + line.w * distance);
+    let reach = place.foot_known;
+    let spread = reach * 1.05 * (2.0 + (distance + reach) / sight.ellipsoid.w);
+    return slack + vec2<f32>(-spread, spread);
 }
 
 fn covers(index: u32, place: Place) -> bool {

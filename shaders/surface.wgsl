@@ -30,6 +30,16 @@ struct Sight {
 
 @group(0) @binding(0) var<uniform> sight: Sight;
 
+// What the sensors of the frame need: the rest is compiled away.
+// Some cover from the apex,
+override APEXES: bool;
+// have an inner cone,
+override INNER_CONES: bool;
+// have a field of view with corners,
+override CORNERS: bool;
+// or a least elevation.
+override ELEVATIONS: bool;
+
 // Below this the eye's outside and its differences are of the size of the distances seen.
 const NEAR_M: f32 = 2e5;
 // A radius about a foot point that holds all others.
@@ -84,18 +94,20 @@ fn place_of(from_eye: vec3<f32>, radius: f32) -> Place {
     let farther = dot(from_eye, sight.eye_gradient.xyz) + dot(from_eye, m * from_eye) / a;
     let outside = outside_eye + farther;
     let relative = max(outside / a, -0.9);
-    // Exact on a sphere; the flattening leaves a thousandth of the height to Newton's method, which
-    // squares the error at each step.
-    var more = relative / (1.0 + sqrt(1.0 + relative)) - tau_eye;
+    // Exact on a sphere, and to first order in height and flattening: metres off at 100 km, of which
+    // one step of Newton's method, squaring the error, leaves micrometres.
+    let point_gradient = 0.5 * a * sight.eye_gradient.xyz + m * from_eye;
+    let steep = dot(point_gradient, point_gradient) / (a * (a + outside));
+    var more = relative / ((1.0 + sqrt(1.0 + relative)) * steep) - tau_eye;
     var from_foot: vec3<f32>;
     var normal: vec3<f32>;
-    for (var step = 0; step < 3; step += 1) {
+    for (var step = 0; step < 2; step += 1) {
         let shrink = 1.0 / (1.0 + (tau_eye + more) * m);
         from_foot = shrink * (from_eye - more * sight.foot_gradient.xyz);
         normal = sight.foot_gradient.xyz + m * from_foot;
         // Twice the dot product with the mean of both gradients: P M P - G M G.
         let off = dot(from_foot, sight.foot_gradient.xyz + normal);
-        more += select(0.0, 0.5 * off / dot(normal, shrink * normal), step < 2);
+        more += select(0.0, 0.5 * off / dot(normal, shrink * normal), step == 0);
     }
     var place: Place;
     place.from_eye = from_eye;
@@ -108,18 +120,20 @@ fn place_of(from_eye: vec3<f32>, radius: f32) -> Place {
     place.above_eye = a * (tau_eye * place.stretched + more * place.stretch);
     place.known = radius;
     place.foot_known = foot_radius(place.height, radius);
-    // What rounding can lift off the ellipsoid must not be lifted over the limb; from four times that
-    // the height counts in full.
-    let unit = 3e-7 * length(from_eye);
-    let heights = place.height + 1.05 * vec2<f32>(-radius, radius);
-    let levels = min(heights, max((heights - unit) * (4.0 / 3.0), vec2<f32>(0.0)));
-    place.outside = levels > vec2<f32>(0.0);
-    let spread = radius * (2.1 + (2.1 * length(from_eye) + 1.1 * radius) / a);
-    let grown = farther + vec2<f32>(-spread, spread) - 2.0 * place.stretch * (heights - levels);
-    place.over = vec2<f32>(
-        root_over(place, normal, max(levels.x, 0.0), grown.x),
-        root_over(place, normal, max(levels.y, 0.0), grown.y),
-    );
+    if APEXES {
+        // What rounding can lift off the ellipsoid must not be lifted over the limb; from four times that
+        // the height counts in full.
+        let unit = 3e-7 * length(from_eye);
+        let heights = place.height + 1.05 * vec2<f32>(-radius, radius);
+        let levels = min(heights, max((heights - unit) * (4.0 / 3.0), vec2<f32>(0.0)));
+        place.outside = levels > vec2<f32>(0.0);
+        let spread = radius * (2.1 + (2.1 * length(from_eye) + 1.1 * radius) / a);
+        let grown = farther + vec2<f32>(-spread, spread) - 2.0 * place.stretch * (heights - levels);
+        place.over = vec2<f32>(
+            root_over(place, normal, max(levels.x, 0.0), grown.x),
+            root_over(place, normal, max(levels.y, 0.0), grown.y),
+        );
+    }
     return place;
 }
 

@@ -9,9 +9,10 @@ use crate::{
     coverage::{self, CoverageColors},
     ellipsoid::Ellipsoid,
     error::SensorError,
+    field_of_view::Shape,
     frame::sensor_record::plane_count,
     geodetic::LonLat,
-    sensor::{Aim, Pose, Sensor},
+    sensor::{Aim, Extrusion, Pose, Sensor},
 };
 
 /// Names a sensor in a [`SensorSet`]; no two sensors of a process have the same.
@@ -270,6 +271,13 @@ impl SensorSet {
             .count()
     }
 
+    /// What drawing all of them needs.
+    pub(crate) fn needs(&self) -> Needs {
+        self.entries
+            .values()
+            .fold(Needs::default(), |needs, entry| needs.and(&entry.sensor))
+    }
+
     /// Number of planes of all fields of view.
     pub(crate) fn plane_count(&self) -> usize {
         self.entries.values().map(plane_count).sum()
@@ -278,6 +286,30 @@ impl SensorSet {
     /// The sensor at a place in the order of the set.
     pub(crate) fn entry(&self, index: usize) -> &Entry {
         &self.entries[index]
+    }
+}
+
+/// What shaders must be able to do for the sensors of a set; the rest is compiled away.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub(crate) struct Needs {
+    pub apexes: bool,
+    pub inner_cones: bool,
+    pub corners: bool,
+    pub elevations: bool,
+}
+
+impl Needs {
+    fn and(self, sensor: &Sensor) -> Self {
+        let (inner, corners) = match sensor.field_of_view.0 {
+            Shape::Cone { inner_rad, .. } => (inner_rad > 0.0, false),
+            Shape::Pyramid { .. } => (false, true),
+        };
+        Self {
+            apexes: self.apexes || sensor.extrusion == Extrusion::Apex,
+            inner_cones: self.inner_cones || inner,
+            corners: self.corners || corners,
+            elevations: self.elevations || sensor.min_elevation_rad.is_some(),
+        }
     }
 }
 

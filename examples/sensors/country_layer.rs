@@ -1,5 +1,5 @@
-//! The countries, drawn once: neither they nor the camera move, so every frame shows the same picture
-//! of them beneath the footprints.
+//! The ground with the countries on it, drawn once: neither they nor the camera move, so every frame
+//! starts from the same picture.
 
 use std::time::Instant;
 
@@ -17,22 +17,9 @@ use crate::host::{
 const OPACITY: f32 = 0.6;
 const BRIGHTNESS: f32 = 0.12;
 
-const COMPOSITE: &str = "
-@group(0) @binding(0) var layer: texture_2d<f32>;
-
-@vertex fn vs(@builtin(vertex_index) corner: u32) -> @builtin(position) vec4<f32> {
-    return vec4<f32>(f32(corner & 1u) * 4.0 - 1.0, f32(corner >> 1u) * 4.0 - 1.0, 0.0, 1.0);
-}
-
-@fragment fn fs(@builtin(position) pixel: vec4<f32>) -> @location(0) vec4<f32> {
-    return textureLoad(layer, vec2<i32>(pixel.xy), 0);
-}
-";
-
-/// A picture of the countries, and what lays it over another.
+/// A picture of the ground and the countries.
 pub struct CountryLayer {
-    pipeline: wgpu::RenderPipeline,
-    group: wgpu::BindGroup,
+    picture: wgpu::Texture,
     /// What drawing the countries once more took.
     pub drawn_ms: f64,
 }
@@ -46,122 +33,66 @@ impl CountryLayer {
         frame: &Frame,
         mesh: FillMesh,
     ) -> Result<Self, String> {
-        let colors = palette::colors(&mesh);
-        let mut renderer =
-            Renderer::new(&gpu.device, options).map_err(|error| error.to_string())?;
-        let id = renderer.insert(mesh);
-        for (fill, [red, green, blue, _]) in (0..).zip(colors) {
-            let [red, green, blue] = [red, green, blue].map(|part| part * BRIGHTNESS);
-            let style = FillStyle {
-                color: [red, green, blue, OPACITY],
-                ..Default::default()
-            };
-            renderer
-                .set_style(id, fill, style)
-                .map_err(|error| error.to_string())?;
-        }
-        let layer = gpu.device.create_texture(&wgpu::TextureDescriptor {
+        let mut renderer = dark_map(gpu, options, mesh)?;
+        let mut view = View::default();
+        renderer
+            .prepare(&gpu.queue, &mut view, frame)
+            .map_err(|error| error.to_string())?;
+        let picture = gpu.device.create_texture(&wgpu::TextureDescriptor {
             label: Some("countries"),
             size: targets.color.size(),
             mip_level_count: 1,
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
             format: options.color_format,
-            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
+            usage: wgpu::TextureUsages::COPY_SRC | wgpu::TextureUsages::COPY_DST,
             view_formats: &[],
         });
-        let layer = layer.create_view(&Default::default());
-        let mut view = View::default();
-        renderer
-            .prepare(&gpu.queue, &mut view, frame)
-            .map_err(|error| error.to_string())?;
-        let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        targets.draw_ground(&mut encoder, ground.0, ground.1, true);
-        gpu.run(encoder)?;
         let mut drawn_ms = 0.0;
         // The first time compiles the shaders.
         for _ in 0..2 {
+            let mut encoder = gpu.device.create_command_encoder(&Default::default());
+            targets.draw_ground(&mut encoder, ground.0, ground.1, true);
+            gpu.run(encoder)?;
             let start = Instant::now();
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
             renderer.count(&mut view, &mut encoder, &targets.depth_view);
-            renderer.resolve(&view, &mut clear_pass(&mut encoder, &layer));
+            renderer.resolve(
+                &view,
+                &mut targets.fill_pass(&mut encoder, wgpu::LoadOp::Load),
+            );
             gpu.run(encoder)?;
             drawn_ms = milliseconds_since(start);
         }
-        let pipeline = composite(gpu, options.color_format);
-        let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("countries"),
-            layout: &pipeline.get_bind_group_layout(0),
-            entries: &[wgpu::BindGroupEntry {
-                binding: 0,
-                resource: wgpu::BindingResource::TextureView(&layer),
-            }],
-        });
-        Ok(Self {
-            pipeline,
-            group,
-            drawn_ms,
-        })
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        copy(&mut encoder, &targets.color, &picture);
+        gpu.run(encoder)?;
+        Ok(Self { picture, drawn_ms })
     }
 
-    /// Lays the countries over what is there.
-    pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
-        pass.set_pipeline(&self.pipeline);
-        pass.set_bind_group(0, &self.group, &[]);
-        pass.draw(0..3, 0..1);
+    /// Replaces the ground in a picture by the ground with countries.
+    pub fn copy_to(&self, encoder: &mut wgpu::CommandEncoder, color: &wgpu::Texture) {
+        copy(encoder, &self.picture, color);
     }
 }
 
-fn clear_pass<'a>(
-    encoder: &'a mut wgpu::CommandEncoder,
-    view: &wgpu::TextureView,
-) -> wgpu::RenderPass<'a> {
-    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-        label: Some("countries"),
-        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-            view,
-            depth_slice: None,
-            resolve_target: None,
-            ops: wgpu::Operations {
-                load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
-                store: wgpu::StoreOp::Store,
-            },
-        })],
-        ..Default::default()
-    })
+fn dark_map(gpu: &Gpu, options: RendererOptions, mesh: FillMesh) -> Result<Renderer, String> {
+    let colors = palette::colors(&mesh);
+    let mut renderer = Renderer::new(&gpu.device, options).map_err(|error| error.to_string())?;
+    let id = renderer.insert(mesh);
+    for (fill, [red, green, blue, _]) in (0..).zip(colors) {
+        let [red, green, blue] = [red, green, blue].map(|part| part * BRIGHTNESS);
+        let style = FillStyle {
+            color: [red, green, blue, OPACITY],
+            ..Default::default()
+        };
+        renderer
+            .set_style(id, fill, style)
+            .map_err(|error| error.to_string())?;
+    }
+    Ok(renderer)
 }
 
-fn composite(gpu: &Gpu, format: wgpu::TextureFormat) -> wgpu::RenderPipeline {
-    let module = gpu
-        .device
-        .create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some("composite"),
-            source: wgpu::ShaderSource::Wgsl(COMPOSITE.into()),
-        });
-    gpu.device
-        .create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-            label: Some("composite"),
-            layout: None,
-            vertex: wgpu::VertexState {
-                module: &module,
-                entry_point: Some("vs"),
-                compilation_options: Default::default(),
-                buffers: &[],
-            },
-            primitive: wgpu::PrimitiveState::default(),
-            depth_stencil: None,
-            multisample: wgpu::MultisampleState::default(),
-            fragment: Some(wgpu::FragmentState {
-                module: &module,
-                entry_point: Some("fs"),
-                compilation_options: Default::default(),
-                targets: &[Some(wgpu::ColorTargetState {
-                    format,
-                    blend: Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
-                    write_mask: wgpu::ColorWrites::ALL,
-                })],
-            }),
-            multiview_mask: None,
-            cache: None,
-        })
+fn copy(encoder: &mut wgpu::CommandEncoder, from: &wgpu::Texture, to: &wgpu::Texture) {
+    encoder.copy_texture_to_texture(from.as_image_copy(), to.as_image_copy(), from.size());
 }

@@ -166,13 +166,13 @@ impl Drawing {
             .draw_ground(&mut encoder, ground, &self.pipelines, false);
         self.renderer
             .count(&mut self.view, &mut encoder, &self.targets.depth_view);
-        {
-            let mut pass = self.targets.fill_pass(&mut encoder, wgpu::LoadOp::Load);
-            if let Some(countries) = &self.countries {
-                countries.draw(&mut pass);
-            }
-            self.renderer.resolve(&self.view, &mut pass);
+        if let Some(countries) = &self.countries {
+            countries.copy_to(&mut encoder, &self.targets.color);
         }
+        self.renderer.resolve(
+            &self.view,
+            &mut self.targets.fill_pass(&mut encoder, wgpu::LoadOp::Load),
+        );
         gpu.queue.submit([encoder.finish()]);
         let script_ms = milliseconds_since(start);
         gpu.wait()?;

@@ -1,15 +1,33 @@
 //! Pipelines of the sensors, compiled when a frame first has some.
 
-use crate::{gpu::pipelines::layout, options::RendererOptions, shaders};
+use std::collections::HashMap;
+
+use crate::{gpu::pipelines::layout, options::RendererOptions, sensor_set::Needs, shaders};
 
 /// What a fragment shows of the sensors that cover it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Shown {
     Blended,
     Coverage,
 }
 
-/// Layouts and pipelines; those not needed yet are not made.
+/// Names the pipelines of a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct SensorKey {
+    pub shown: Shown,
+    pub needs: Needs,
+}
+
+/// The pipelines of a frame.
+pub(crate) struct SensorProgram {
+    /// Ranges of depth, blocks, tiles.
+    pub binning: Vec<wgpu::ComputePipeline>,
+    /// Counting at one pixel.
+    pub counting: Vec<wgpu::ComputePipeline>,
+    pub resolve: wgpu::RenderPipeline,
+}
+
+/// Layouts, and the programs made so far.
 pub(crate) struct SensorPipelines {
     options: RendererOptions,
     /// Camera, sensors, planes, colours of the coverage.
@@ -21,12 +39,7 @@ pub(crate) struct SensorPipelines {
     pub depth_layout: wgpu::BindGroupLayout,
     /// What is read back.
     pub answer_layout: wgpu::BindGroupLayout,
-    /// Ranges of depth, blocks, tiles.
-    pub binning: Vec<wgpu::ComputePipeline>,
-    /// Counting at one pixel.
-    pub counting: Vec<wgpu::ComputePipeline>,
-    blended: Option<wgpu::RenderPipeline>,
-    coverage: Option<wgpu::RenderPipeline>,
+    made: HashMap<SensorKey, SensorProgram>,
 }
 
 impl SensorPipelines {
@@ -56,57 +69,54 @@ impl SensorPipelines {
         );
         let depth_layout = make("globefill depth", stages, &[depth]);
         let answer_layout = make("globefill answer", compute, &[written]);
-        let samples = options.sample_count;
-        let steps = |source, groups, entries| {
-            let layout = pipeline_layout(device, [&scene_layout, groups, &depth_layout]);
-            compute_pipelines(device, source, &layout, entries)
-        };
-        let binning = ["cs_range", "cs_bin_blocks", "cs_bin_tiles"];
         Self {
             options,
-            binning: steps(shaders::bin_sensors(samples), &binned_layout, &binning),
-            counting: steps(
-                shaders::count_sensors(samples),
-                &answer_layout,
-                &["cs_count"],
-            ),
             scene_layout,
             binned_layout,
             tiles_layout,
             depth_layout,
             answer_layout,
-            blended: None,
-            coverage: None,
+            made: HashMap::new(),
         }
     }
 
-    /// Compiles the resolve if it does not exist yet.
-    pub(crate) fn ensure(&mut self, device: &wgpu::Device, shown: Shown) {
-        if self.get(shown).is_none() {
-            let made = Some(self.make(device, shown));
-            match shown {
-                Shown::Blended => self.blended = made,
-                Shown::Coverage => self.coverage = made,
-            }
+    /// Compiles the program if it does not exist yet.
+    pub(crate) fn ensure(&mut self, device: &wgpu::Device, key: SensorKey) {
+        if !self.made.contains_key(&key) {
+            let program = self.make(device, key);
+            self.made.insert(key, program);
         }
     }
 
-    /// The resolve, if `ensure` was called for it.
-    pub(crate) fn get(&self, shown: Shown) -> Option<&wgpu::RenderPipeline> {
-        match shown {
-            Shown::Blended => self.blended.as_ref(),
-            Shown::Coverage => self.coverage.as_ref(),
-        }
+    /// A program that `ensure` was called for.
+    pub(crate) fn get(&self, key: SensorKey) -> Option<&SensorProgram> {
+        self.made.get(&key)
     }
 
-    fn make(&self, device: &wgpu::Device, shown: Shown) -> wgpu::RenderPipeline {
+    fn make(&self, device: &wgpu::Device, key: SensorKey) -> SensorProgram {
         let samples = self.options.sample_count;
-        let entry = match (shown, samples > 1) {
+        let steps = |source, groups, entries: &[&str]| {
+            let layout = pipeline_layout(device, [&self.scene_layout, groups, &self.depth_layout]);
+            compute_pipelines(device, source, &layout, entries, key.needs)
+        };
+        let binning = ["cs_range", "cs_bin_blocks", "cs_bin_tiles"];
+        let counting = shaders::count_sensors(samples);
+        SensorProgram {
+            binning: steps(shaders::bin_sensors(samples), &self.binned_layout, &binning),
+            counting: steps(counting, &self.answer_layout, &["cs_count"]),
+            resolve: self.make_resolve(device, key),
+        }
+    }
+
+    fn make_resolve(&self, device: &wgpu::Device, key: SensorKey) -> wgpu::RenderPipeline {
+        let samples = self.options.sample_count;
+        let entry = match (key.shown, samples > 1) {
             (Shown::Blended, false) => "fs_blended",
             (Shown::Blended, true) => "fs_blended_sample",
             (Shown::Coverage, false) => "fs_coverage",
             (Shown::Coverage, true) => "fs_coverage_sample",
         };
+        let constants = constants(key.needs);
         let module = module(device, shaders::resolve_sensors(samples));
         let layouts = [&self.scene_layout, &self.tiles_layout, &self.depth_layout];
         device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
@@ -115,7 +125,7 @@ impl SensorPipelines {
             vertex: wgpu::VertexState {
                 module: &module,
                 entry_point: Some("vs_block"),
-                compilation_options: Default::default(),
+                compilation_options: options(&constants),
                 buffers: &[],
             },
             primitive: wgpu::PrimitiveState {
@@ -130,7 +140,7 @@ impl SensorPipelines {
             fragment: Some(wgpu::FragmentState {
                 module: &module,
                 entry_point: Some(entry),
-                compilation_options: Default::default(),
+                compilation_options: options(&constants),
                 targets: &[Some(wgpu::ColorTargetState {
                     format: self.options.color_format,
                     blend: Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
@@ -148,7 +158,9 @@ fn compute_pipelines(
     source: String,
     layout: &wgpu::PipelineLayout,
     entries: &[&str],
+    needs: Needs,
 ) -> Vec<wgpu::ComputePipeline> {
+    let constants = constants(needs);
     let module = module(device, source);
     entries
         .iter()
@@ -158,11 +170,29 @@ fn compute_pipelines(
                 layout: Some(layout),
                 module: &module,
                 entry_point: Some(entry),
-                compilation_options: Default::default(),
+                compilation_options: options(&constants),
                 cache: None,
             })
         })
         .collect()
+}
+
+/// The overrides of surface.wgsl.
+fn constants(needs: Needs) -> [(&'static str, f64); 4] {
+    [
+        ("APEXES", needs.apexes),
+        ("INNER_CONES", needs.inner_cones),
+        ("CORNERS", needs.corners),
+        ("ELEVATIONS", needs.elevations),
+    ]
+    .map(|(name, needed)| (name, f64::from(u8::from(needed))))
+}
+
+fn options<'a>(constants: &'a [(&'a str, f64)]) -> wgpu::PipelineCompilationOptions<'a> {
+    wgpu::PipelineCompilationOptions {
+        constants,
+        ..Default::default()
+    }
 }
 
 fn module(device: &wgpu::Device, source: String) -> wgpu::ShaderModule {

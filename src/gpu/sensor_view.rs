@@ -6,7 +6,7 @@ use crate::{
     frame::reference::Reference,
     frame::sensor_records::SensorRecords,
     frame::sight_uniform::{SightUniform, TILE, divided},
-    gpu::sensor_pipelines::{SensorPipelines, Shown},
+    gpu::sensor_pipelines::{SensorKey, SensorPipelines},
     gpu::stream_buffer::StreamBuffer,
     options::Frame,
     sensor_set::{SensorDisplay, SensorSet, Version},
@@ -36,7 +36,7 @@ pub(crate) struct SensorView {
     /// The depth last given to `count`.
     depth: Option<(wgpu::TextureView, wgpu::BindGroup)>,
     /// What is drawn, if anything is.
-    pub shown: Option<Shown>,
+    pub key: Option<SensorKey>,
     pub block_count: u32,
     tile_count: u32,
     /// What was last uploaded for.
@@ -72,7 +72,7 @@ impl SensorView {
             tiles: None,
             scene: None,
             depth: None,
-            shown: None,
+            key: None,
             block_count: 0,
             tile_count: 0,
             prepared: None,
@@ -148,9 +148,9 @@ impl SensorView {
         encoder: &mut wgpu::CommandEncoder,
         depth: &wgpu::TextureView,
     ) {
-        if self.shown.is_none() {
+        let Some(program) = self.key.and_then(|key| pipelines.get(key)) else {
             return;
-        }
+        };
         self.bind_depth(device, pipelines, depth);
         let (Some(scene), Some(tiles), Some((_, depth))) = (&self.scene, &self.tiles, &self.depth)
         else {
@@ -165,7 +165,7 @@ impl SensorView {
             pass.set_bind_group(index, group, &[]);
         }
         let counts = [self.tile_count, self.block_count, self.tile_count];
-        for (pipeline, count) in pipelines.binning.iter().zip(counts) {
+        for (pipeline, count) in program.binning.iter().zip(counts) {
             pass.set_pipeline(pipeline);
             pass.dispatch_workgroups(count.div_ceil(WORKGROUP), 1, 1);
         }
@@ -193,15 +193,15 @@ impl SensorView {
 
     /// Draws the tiles into the host's pass.
     pub(crate) fn resolve(&self, pipelines: &SensorPipelines, pass: &mut wgpu::RenderPass<'_>) {
-        let (Some(scene), Some(tiles), Some((_, depth)), Some(pipeline)) = (
+        let (Some(scene), Some(tiles), Some((_, depth)), Some(program)) = (
             &self.scene,
             &self.tiles,
             &self.depth,
-            self.shown.and_then(|shown| pipelines.get(shown)),
+            self.key.and_then(|key| pipelines.get(key)),
         ) else {
             return;
         };
-        pass.set_pipeline(pipeline);
+        pass.set_pipeline(&program.resolve);
         for (index, group) in (0..).zip([scene, &tiles.read, depth]) {
             pass.set_bind_group(index, group, &[]);
         }
@@ -217,7 +217,9 @@ impl SensorView {
         encoder: &mut wgpu::CommandEncoder,
         answer: &wgpu::Buffer,
     ) -> bool {
-        let (Some(scene), Some((_, depth))) = (&self.scene, &self.depth) else {
+        let program = self.key.and_then(|key| pipelines.get(key));
+        let (Some(scene), Some((_, depth)), Some(program)) = (&self.scene, &self.depth, program)
+        else {
             return false;
         };
         let answer = group(device, &pipelines.answer_layout, &[answer]);
@@ -228,7 +230,7 @@ impl SensorView {
         for (index, group) in (0..).zip([scene, &answer, depth]) {
             pass.set_bind_group(index, group, &[]);
         }
-        for pipeline in &pipelines.counting {
+        for pipeline in &program.counting {
             pass.set_pipeline(pipeline);
             pass.dispatch_workgroups(1, 1, 1);
         }

@@ -11,7 +11,7 @@ use crate::{
     frame::sight::Sight,
     frame::sight_uniform::SightUniform,
     frame_stats::FrameStats,
-    gpu::sensor_pipelines::{SensorPipelines, Shown},
+    gpu::sensor_pipelines::{SensorKey, SensorPipelines, Shown},
     gpu::sensor_view::{self, SensorFrame, SensorView},
     options::Frame,
     sensor_set::SensorDisplay,
@@ -71,7 +71,7 @@ impl Renderer {
         let Some(sight) = sight else {
             // Sensors that are hidden for a while keep their buffers.
             match &mut view.sensors {
-                Some(sensors) if !set.is_empty() => sensors.shown = None,
+                Some(sensors) if !set.is_empty() => sensors.key = None,
                 none => *none = None,
             }
             return;
@@ -83,11 +83,15 @@ impl Renderer {
         let pipelines = self
             .sensor_pipelines
             .get_or_insert_with(|| SensorPipelines::new(&self.device, self.options));
-        pipelines.ensure(&self.device, shown);
+        let key = SensorKey {
+            shown,
+            needs: set.needs(),
+        };
+        pipelines.ensure(&self.device, key);
         let sensors = view
             .sensors
             .get_or_insert_with(|| SensorView::new(&self.device));
-        sensors.shown = Some(shown);
+        sensors.key = Some(key);
         if !sensors.holds(frame, set) {
             let reference = Reference::new(set.ellipsoid(), frame.camera.eye_ecef_m);
             let depth = self.options.depth;
@@ -100,7 +104,9 @@ impl Renderer {
             stats.upload_bytes += sensors.prepare(&self.device, queue, pipelines, with);
         }
         stats.sensors = set.visible_count() as u32;
-        stats.dispatches = pipelines.binning.len() as u32;
+        stats.dispatches = pipelines
+            .get(key)
+            .map_or(0, |program| program.binning.len() as u32);
         stats.draws += 1;
         stats.vertices += 4 * u64::from(sensors.block_count);
     }
@@ -148,7 +154,7 @@ impl Renderer {
             encoder.clear_buffer(into, offset, Some(4));
             return Ok(());
         };
-        if sensors.shown.is_none() {
+        if sensors.key.is_none() {
             encoder.clear_buffer(into, offset, Some(4));
             return Ok(());
         }
