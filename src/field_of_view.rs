@@ -81,7 +81,8 @@ impl FieldOfView {
     ///
     /// # Errors
     /// [`SensorError::Corners`] unless there are 3 … [`MAX_CORNERS`]; [`SensorError::Corner`] with the
-    /// first corner that is not finite, is no direction, equals another, or is not convex.
+    /// first corner that is not finite, is no direction, equals another, is not convex, or lies
+    /// 90° or more from the mean direction of all.
     pub fn convex(corners: &[DVec3]) -> Result<Self, SensorError> {
         let count = corners.len();
         if !(3..=MAX_CORNERS).contains(&count) {
@@ -106,7 +107,8 @@ impl FieldOfView {
             let others = |normal: DVec3| corners.iter().all(|corner| corner.dot(normal) > -1e-12);
             let same = |other: &&DVec3| (corners[k] - **other).length() <= 1e-9;
             let distinct = corners.iter().filter(same).count() == 1;
-            if !(distinct && inward[k].is_finite() && others(inward[k])) {
+            let ahead = corners[k].dot(middle) > 0.0;
+            if !(distinct && inward[k].is_finite() && others(inward[k]) && ahead) {
                 return Err(SensorError::Corner(k));
             }
         }

@@ -438,7 +438,7 @@ fn any_watcher(random: &mut Random, height_m: f64) -> Watcher {
             up_rad: (width_rad * next()).clamp(0.001, 1.5),
         },
         _ => {
-            let reach = width_rad.min(1.4).tan();
+            let reach = width_rad.min(1.0).tan();
             let corner = |k: f64| (reach * (k * TAU).cos(), reach * (k * TAU).sin());
             let turn = next();
             Optics::Corners([0.0, 0.2, 0.45, 0.8].map(|k| corner(k + turn)).to_vec())
