@@ -1,6 +1,6 @@
 //! Zones against their definition: distances and azimuths by Karney's inverse problem.
 //!
-//! All pictures: `cargo test --release --test zones -- --ignored --nocapture`
+//! All pictures: `cargo test --release --test zones -- --ignored nothing_is_wrong --nocapture`
 
 mod answers;
 #[path = "../common/mod.rs"]

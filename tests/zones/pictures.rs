@@ -96,8 +96,21 @@ fn along_boundary_deg(subject: &Subject) -> f64 {
     east.atan2(north).to_degrees() + 90.0
 }
 
-/// Wrong pixels straight down from all heights, and along the boundary from the lower ones.
-fn wrong_pictures(subject: &Subject, heights_m: &[f64], terrains: &[Terrain]) -> usize {
+/// Which way a picture is taken.
+#[derive(Clone, Copy, PartialEq)]
+enum Look {
+    Down,
+    /// Along the boundary, from below 1 000 km.
+    Along,
+}
+
+/// Wrong pixels from all heights.
+fn wrong_pictures(
+    subject: &Subject,
+    heights_m: &[f64],
+    terrains: &[Terrain],
+    looks: &[Look],
+) -> usize {
     let mesh = subject.mesh(5.0);
     let mut wrong = 0;
     let over = subject.on_boundary;
@@ -105,13 +118,12 @@ fn wrong_pictures(subject: &Subject, heights_m: &[f64], terrains: &[Terrain]) ->
         let ground_m = terrain.height_m(Figure::new(Ellipsoid::WGS84).normal(over));
         for &height_m in heights_m {
             let pose = Pose::nadir(over.lon_deg, over.lat_deg, ground_m + height_m);
-            wrong += wrong_pixels(subject, &mesh, pose, terrain);
-            if height_m < 1e6 {
+            if looks.contains(&Look::Down) {
+                wrong += wrong_pixels(subject, &mesh, pose, terrain);
+            }
+            if looks.contains(&Look::Along) && height_m < 1e6 {
                 let heading_deg = along_boundary_deg(subject) + 15.0;
-                let found = wrong_pixels(subject, &mesh, pose.turned(heading_deg, -12.0), terrain);
-                // Walls seen edge-on against the flank of a mountain leave a pixel in some thirty
-                // such pictures on the wrong side, of plain geodesic edges no less than of zones.
-                wrong += found.saturating_sub(usize::from(terrain == Terrain::Rough));
+                wrong += wrong_pixels(subject, &mesh, pose.turned(heading_deg, -12.0), terrain);
             }
         }
     }
@@ -119,13 +131,14 @@ fn wrong_pictures(subject: &Subject, heights_m: &[f64], terrains: &[Terrain]) ->
 }
 
 const PLATEAU: Terrain = Terrain::Plateau { height_m: 4000.0 };
+const BOTH: [Look; 2] = [Look::Down, Look::Along];
 const HEIGHTS_M: [f64; 6] = [1.0, 100.0, 1e4, 1e6, 2e7, 4e8];
 
 #[test]
 fn nothing_is_wrong_over_a_circle() {
     let circle = Subject::new("circle", Zone::circle(at(11.0, 47.0), 1e5));
     assert_eq!(
-        wrong_pictures(&circle, &HEIGHTS_M, &[Terrain::Bare, PLATEAU]),
+        wrong_pictures(&circle, &HEIGHTS_M, &[Terrain::Bare, PLATEAU], &BOTH),
         0
     );
 }
@@ -135,7 +148,7 @@ fn nothing_is_wrong_over_a_corridor() {
     let line = vec![at(5.0, 45.0), at(8.0, 46.0), at(7.0, 47.5), at(6.3, 44.0)];
     let corridor = Subject::new("crossing corridor", Zone::corridor(line, 3e4));
     assert_eq!(
-        wrong_pictures(&corridor, &[1.0, 1e3, 8e5], &[Terrain::Bare]),
+        wrong_pictures(&corridor, &[1.0, 1e3, 8e5], &[Terrain::Bare], &BOTH),
         0
     );
 }
@@ -144,19 +157,34 @@ fn nothing_is_wrong_over_a_corridor() {
 fn nothing_is_wrong_over_a_tiny_circle() {
     let tiny = Subject::new("tiny circle", Zone::circle(at(-179.999_999_9, 51.5), 0.1));
     assert_eq!(
-        wrong_pictures(&tiny, &[0.5, 2.0, 100.0], &[Terrain::Bare]),
+        wrong_pictures(&tiny, &[0.5, 2.0, 100.0], &[Terrain::Bare], &BOTH),
         0
     );
+}
+
+/// Names of zones with wrong pixels, and how many.
+fn wrong_zones(terrains: &[Terrain], looks: &[Look]) -> Vec<(&'static str, usize)> {
+    subjects()
+        .iter()
+        .map(|subject| {
+            let wrong = wrong_pictures(subject, &HEIGHTS_M, terrains, looks);
+            (subject.name, wrong)
+        })
+        .filter(|(_, wrong)| *wrong > 0)
+        .collect()
 }
 
 #[test]
 #[ignore = "minutes; see the head of this file"]
 fn nothing_is_wrong_over_any_zone() {
-    let terrains = [Terrain::Bare, PLATEAU, Terrain::Rough];
-    let wrong: Vec<(&str, usize)> = subjects()
-        .iter()
-        .map(|subject| (subject.name, wrong_pictures(subject, &HEIGHTS_M, &terrains)))
-        .filter(|(_, wrong)| *wrong > 0)
-        .collect();
-    assert_eq!(wrong, []);
+    assert_eq!(wrong_zones(&[Terrain::Bare, PLATEAU], &BOTH), []);
+    assert_eq!(wrong_zones(&[Terrain::Rough], &[Look::Down]), []);
+}
+
+/// A wall seen edge-on from 1 m against the flank of a mountain leaves a pixel in some thirty such
+/// pictures on the wrong side, of plain geodesic edges no less than of zones.
+#[test]
+#[ignore = "known issue: it fails"]
+fn known_issue_edge_on_walls_over_mountains() {
+    assert_eq!(wrong_zones(&[Terrain::Rough], &[Look::Along]), []);
 }
