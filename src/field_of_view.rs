@@ -76,6 +76,14 @@ impl FieldOfView {
         ])
     }
 
+    /// Number of planes that bound it; none bound a cone.
+    pub(crate) fn plane_count(&self) -> usize {
+        match &self.0 {
+            Shape::Cone { .. } => 0,
+            Shape::Pyramid { inward, .. } => inward.len(),
+        }
+    }
+
     /// The convex cone spanned by corner directions (right, up, boresight), of any length, given in
     /// turn, either way round. The boresight need not lie inside.
     ///

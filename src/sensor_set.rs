@@ -9,8 +9,7 @@ use crate::{
     coverage::{self, CoverageColors},
     ellipsoid::Ellipsoid,
     error::SensorError,
-    field_of_view::Shape,
-    frame::sensor_record::plane_count,
+    field_of_view::{FieldOfView, Shape},
     geodetic::LonLat,
     sensor::{Aim, Extrusion, Pose, Sensor},
 };
@@ -280,7 +279,11 @@ impl SensorSet {
 
     /// Number of planes of all fields of view.
     pub(crate) fn plane_count(&self) -> usize {
-        self.entries.values().map(plane_count).sum()
+        let views = self
+            .entries
+            .values()
+            .map(|entry| &entry.sensor.field_of_view);
+        views.map(FieldOfView::plane_count).sum()
     }
 
     /// The sensor at a place in the order of the set.
@@ -324,7 +327,6 @@ impl Entry {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::FieldOfView;
 
     fn sensor(lon_deg: f64) -> Sensor {
         let apex_ecef_m = Ellipsoid::WGS84.ecef(LonLat::new(lon_deg, 10.0), 5e5);

@@ -62,7 +62,12 @@ impl SensorRecord {
         let mut record = Self {
             line: padded(from_apex_m, aim.sin_min_elevation),
             weight: weight(&entry.style, weight_scale),
-            planes: [first_plane as u32, plane_count(entry) as u32, 0, 0],
+            planes: [
+                first_plane as u32,
+                entry.sensor.field_of_view.plane_count() as u32,
+                0,
+                0,
+            ],
             ..Self::nothing()
         };
         record.set_cone(&aim, from_apex_m);
@@ -128,14 +133,6 @@ impl SensorRecord {
 fn lift_over_limb(aim: &Aim<'_>, reference: &Reference) -> f64 {
     let apex = aim.apex_ecef_m / reference.ellipsoid.radii_m();
     ((apex.length_squared() - 1.0) * reference.ellipsoid.a_m).sqrt()
-}
-
-/// Inward planes of a sensor's field of view.
-pub(crate) fn plane_count(entry: &Entry) -> usize {
-    match &entry.sensor.field_of_view.0 {
-        Shape::Cone { .. } => 0,
-        Shape::Pyramid { inward, .. } => inward.len(),
-    }
 }
 
 /// The planes of a sensor's field of view: inward normal, slack at the reference.

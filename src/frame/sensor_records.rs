@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use crate::{
     frame::reference::Reference,
-    frame::sensor_record::{SensorRecord, optical_depth, plane_count, planes_of, weight_scale},
+    frame::sensor_record::{SensorRecord, optical_depth, planes_of, weight_scale},
     sensor_set::{SensorSet, Version},
 };
 
@@ -36,7 +36,7 @@ impl SensorRecords {
         let mut deepest = 0.0;
         for index in 0..set.len() {
             let entry = set.entry(index);
-            let planes = plane_count(entry) as u32;
+            let planes = entry.sensor.field_of_view.plane_count() as u32;
             self.first_planes
                 .push(if planes > 0 { plane_total } else { 0 });
             plane_total += planes;
