@@ -68,7 +68,7 @@ fn sums_at(pixel: vec2<u32>, sample: u32, block: u32) -> Sums {
 // Translucent footprints, each absorbing like a filter: colours weighted by optical depth.
 fn blended(sums: Sums) -> vec4<f32> {
     let depth = f32(sums.weight.w);
-    let alpha = 1.0 - exp(-depth * sight.weight.x);
+    let alpha = 1.0 - exp(-depth * sight.bounds.z);
     return vec4<f32>(vec3<f32>(sums.weight.xyz) / max(depth, 1.0) * alpha, alpha);
 }
 

@@ -1,6 +1,6 @@
 // From the depth at a pixel to the surface point and its foot point on the ellipsoid. Everything is a
 // difference from the eye or from the eye's foot point, formed without cancellation, so that positions
-// are within 2.5e-7 of the distance to the eye.
+// are off by a few roundings of the distance to the eye.
 
 // Metres along ECEF axes.
 struct Sight {
@@ -24,8 +24,8 @@ struct Sight {
     blocks: vec4<u32>,
     // Sensors, pages, colours of the coverage, whether gaps are coloured.
     counts: vec4<u32>,
-    // x: optical depth of one unit of weight; lowest and highest surface, see strays.
-    weight: vec4<f32>,
+    // Lowest and highest surface, see strays; z: optical depth of one unit of weight.
+    bounds: vec4<f32>,
 }
 
 @group(0) @binding(0) var<uniform> sight: Sight;
@@ -95,7 +95,7 @@ fn place_of(from_eye: vec3<f32>, radius: f32) -> Place {
     let outside = outside_eye + farther;
     let relative = max(outside / a, -0.9);
     // Exact on a sphere, and to first order in height and flattening: metres off at 100 km, of which
-    // one step of Newton's method, squaring the error, leaves micrometres.
+    // one step of Newton's method, squaring the error, leaves less than a micrometre.
     let point_gradient = 0.5 * a * sight.eye_gradient.xyz + m * from_eye;
     let steep = dot(point_gradient, point_gradient) / (a * (a + outside));
     var more = relative / ((1.0 + sqrt(1.0 + relative)) * steep) - tau_eye;
@@ -151,7 +151,7 @@ fn foot_radius(height: f32, radius: f32) -> f32 {
 // none of it: a satellite, a sky dome. A generous hundredth of the distance is for coarse meshes.
 fn strays(place: Place, radius: f32) -> bool {
     let slack = 0.01 * length(place.from_eye) - radius;
-    return place.height < sight.weight.y - slack || place.height > sight.weight.z + slack;
+    return place.height < sight.bounds.x - slack || place.height > sight.bounds.y + slack;
 }
 
 // sqrt(outside), less the eye's: of a point `level` above the ellipsoid, whose outside is `farther`

@@ -104,12 +104,12 @@
 //! [`MeshOptions::tolerance_m`]; chords nearer to the eye than that allows are replaced by finer ones
 //! for the frame.
 //!
-//! Footprints are not subject to the budget: they are tested at each pixel, where positions are known
-//! to 2.5·10⁻⁷ of the distance to the eye, and lie within 1/32 px plus one unit of the host's depth. That
-//! assumes fields of view of some degrees or more, an apex 1 km or more above the ellipsoid, and least elevations up
-//! to 85°, beyond which edges hang on ever smaller differences. From the apex, ground lower than a
-//! millionth of the distance to the eye is hard to tell from the ellipsoid: there the limb may be off by
-//! a quarter of a pixel.
+//! Footprints are not subject to the budget: they are tested at each pixel, from positions that are off
+//! by a few single-precision roundings of the distance to the eye, and lie within 1/32 px plus one unit
+//! of the host's depth. That is tested for an apex from 5 km above the ellipsoid, least elevations up to 29°
+//! and cameras that see 1.5° or more; edges hang on ever smaller differences beyond. From the apex, ground
+//! that rises by less than a millionth of the distance to the eye, or by decimetres, is hard to tell from
+//! the ellipsoid: there the limb may be off by a quarter of a pixel.
 //!
 //! # Answers
 //!

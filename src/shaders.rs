@@ -193,7 +193,7 @@ mod tests {
         let (members, size) = layout_of(&super::bin_sensors(1), "Sight");
         let expected = offsets!(
             SightUniform: ray, right, down, depth, ellipsoid, eye_gradient, foot_gradient, size,
-            tiles, blocks, counts, weight
+            tiles, blocks, counts, bounds
         );
         assert_eq!(members, expected);
         assert_eq!(size, size_of::<SightUniform>());

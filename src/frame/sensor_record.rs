@@ -5,6 +5,7 @@ use glam::DVec3;
 use crate::{
     field_of_view::Shape,
     frame::reference::Reference,
+    frame::sight_uniform::padded,
     sensor::{Aim, Extrusion},
     sensor_set::{Entry, SensorStyle},
 };
@@ -52,12 +53,10 @@ impl SensorRecord {
             return Self::nothing();
         }
         let aim = entry.aim(&reference.ellipsoid);
-        let (from_apex_m, lift) = match aim.extrusion {
-            Extrusion::Normal => (reference.foot_ecef_m - aim.apex_ecef_m, 0.0),
-            Extrusion::Apex => (
-                reference.eye_ecef_m - aim.apex_ecef_m,
-                lift_over_limb(&aim, reference),
-            ),
+        let from_apex_m = from_apex_m(&aim, reference);
+        let lift = match aim.extrusion {
+            Extrusion::Normal => 0.0,
+            Extrusion::Apex => lift_over_limb(&aim, reference),
         };
         let mut record = Self {
             line: padded(from_apex_m, aim.sin_min_elevation),
@@ -128,6 +127,15 @@ impl SensorRecord {
     }
 }
 
+/// The way from the apex to the point that slacks are taken at.
+fn from_apex_m(aim: &Aim<'_>, reference: &Reference) -> DVec3 {
+    let taken_at = match aim.extrusion {
+        Extrusion::Normal => reference.foot_ecef_m,
+        Extrusion::Apex => reference.eye_ecef_m,
+    };
+    taken_at - aim.apex_ecef_m
+}
+
 /// By how much the root of a point's outside lifts it over the limb: a point is seen if it is above
 /// the plane of the limb by −√(outside of the apex · outside of the point) or more.
 fn lift_over_limb(aim: &Aim<'_>, reference: &Reference) -> f64 {
@@ -141,10 +149,7 @@ pub(crate) fn planes_of(entry: &Entry, reference: &Reference, planes: &mut Vec<[
         return;
     };
     let aim = entry.aim(&reference.ellipsoid);
-    let from_apex_m = match aim.extrusion {
-        Extrusion::Normal => reference.foot_ecef_m - aim.apex_ecef_m,
-        Extrusion::Apex => reference.eye_ecef_m - aim.apex_ecef_m,
-    };
+    let from_apex_m = from_apex_m(&aim, reference);
     planes.extend(inward.iter().map(|&normal| {
         let normal = aim.ecef_from_sensor * normal;
         padded(normal, normal.dot(from_apex_m))
@@ -156,10 +161,6 @@ fn weight(style: &SensorStyle, scale: f64) -> [u32; 4] {
     let [red, green, blue, _] = style.color;
     let depth = optical_depth(style) * scale;
     [red, green, blue, 1.0].map(|part| (f64::from(part) * depth).round() as u32)
-}
-
-fn padded(vector: DVec3, last: f64) -> [f32; 4] {
-    vector.extend(last).as_vec4().to_array()
 }
 
 #[cfg(test)]

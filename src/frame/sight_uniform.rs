@@ -27,7 +27,7 @@ pub(crate) struct SightUniform {
     pub tiles: [u32; 4],
     pub blocks: [u32; 4],
     pub counts: [u32; 4],
-    pub weight: [f32; 4],
+    pub bounds: [f32; 4],
 }
 
 impl SightUniform {
@@ -74,7 +74,7 @@ impl SightUniform {
             tiles: counted(tiles),
             blocks: counted(divided(tiles, BLOCK)),
             counts: [0; 4],
-            weight: [0.0, lowest_m as f32, highest_m as f32, 0.0],
+            bounds: [lowest_m as f32, highest_m as f32, 0.0, 0.0],
         }
     }
 }
@@ -84,6 +84,7 @@ pub(crate) fn divided(grid: UVec2, side: u32) -> UVec2 {
     UVec2::new(grid.x.div_ceil(side), grid.y.div_ceil(side))
 }
 
-fn padded(vector: DVec3, last: f64) -> [f32; 4] {
+/// A vector, and one number more.
+pub(crate) fn padded(vector: DVec3, last: f64) -> [f32; 4] {
     vector.extend(last).as_vec4().to_array()
 }

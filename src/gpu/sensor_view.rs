@@ -98,7 +98,7 @@ impl SensorView {
         [self.tile_count, self.block_count] = [uniform.tiles[2], uniform.blocks[2]];
         let pages = page_count(device, self.tile_count + self.block_count, set.len());
         let key = [self.tile_count, self.block_count, pages];
-        uniform.weight[0] = self.records.depth_per_weight() as f32;
+        uniform.bounds[2] = self.records.depth_per_weight() as f32;
         uniform.counts[..2].copy_from_slice(&[set.len() as u32, pages]);
         let colors: Vec<[f32; 4]> = match set.display() {
             SensorDisplay::Blended => Vec::new(),

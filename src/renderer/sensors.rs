@@ -150,14 +150,14 @@ impl Renderer {
         if pixel.cmpge(size_px).any() {
             return Err(RendererError::NoSuchPixel(pixel));
         }
-        let (Some(sensors), Some(pipelines)) = (&view.sensors, &self.sensor_pipelines) else {
+        let shown = view
+            .sensors
+            .as_ref()
+            .filter(|sensors| sensors.key.is_some());
+        let (Some(sensors), Some(pipelines)) = (shown, &self.sensor_pipelines) else {
             encoder.clear_buffer(into, offset, Some(4));
             return Ok(());
         };
-        if sensors.key.is_none() {
-            encoder.clear_buffer(into, offset, Some(4));
-            return Ok(());
-        }
         let question = [pixel.x, pixel.y, 0, 0];
         let answer = self.device.create_buffer_init(&BufferInitDescriptor {
             label: Some("globefill answer"),
