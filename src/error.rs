@@ -153,6 +153,18 @@ pub enum SensorError {
     NoSuchSensor,
 }
 
+/// Why a style cannot be drawn.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum StyleError {
+    /// A number of the style, by the path of its field, is NaN, infinite or out of its range.
+    #[error("{0} is not finite or out of range")]
+    OutOfRange(&'static str),
+    /// The identifier was not given out by this renderer, or its image was removed.
+    #[error("no such image in this renderer")]
+    NoSuchImage,
+}
+
 /// Why a renderer could not be made or a frame not prepared.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -177,11 +189,13 @@ pub enum RendererError {
         /// The number of fills in the mesh.
         fills: u32,
     },
-    /// A colour is not finite or its alpha not within 0 … 1.
-    #[error("the style of fill {fill} has a colour that is not finite or an alpha beyond 0 … 1")]
+    /// A style cannot be drawn.
+    #[error("the style of fill {fill}: {error}")]
     InvalidStyle {
         /// The fill.
         fill: u32,
+        /// What is wrong.
+        error: StyleError,
     },
     /// Fills overlap deeper than there are layers.
     #[error("overlapping fills need {needed} layers, the renderer has {most}")]

@@ -123,6 +123,7 @@ pub mod coverage;
 pub mod curve;
 pub mod ellipsoid;
 pub mod error;
+pub mod extents;
 pub mod field_of_view;
 pub mod fill_mesh;
 pub mod footprint;
@@ -130,6 +131,10 @@ pub mod frame_stats;
 #[cfg(feature = "geojson")]
 pub mod geo_json;
 pub mod geodetic;
+pub mod hatch;
+pub mod image;
+pub mod image_fill;
+pub mod length;
 pub mod locator;
 pub mod options;
 pub mod outline;
@@ -140,6 +145,8 @@ pub mod sensor;
 pub mod sensor_set;
 #[doc(hidden)]
 pub mod shaders;
+pub mod stroke;
+pub mod style;
 pub mod view;
 pub mod zone;
 
@@ -154,22 +161,27 @@ pub use crate::{
     coverage::CoverageColors,
     curve::{Curve, CurveKind, CurveOn},
     ellipsoid::Ellipsoid,
-    error::{RegionError, RendererError, SensorError, ZoneError},
+    error::{RegionError, RendererError, SensorError, StyleError, ZoneError},
+    extents::Extents,
     field_of_view::FieldOfView,
     fill_mesh::{FillMesh, MeshOptions},
     footprint::{Footprint, FootprintBound, FootprintEdge, FootprintLoop},
     frame_stats::FrameStats,
     geodetic::LonLat,
+    hatch::{Hatch, HatchKind},
+    image::ImageId,
+    image_fill::{ImageFill, Placement, Wrap},
+    length::Length,
     locator::Locator,
-    options::{
-        Camera, CountTechnique, DepthConvention, FillStyle, Frame, HeightRange, RendererOptions,
-    },
+    options::{Camera, CountTechnique, DepthConvention, Frame, HeightRange, RendererOptions},
     outline::{Cap, Measures, Outline, Stretch},
     region::{EdgeKind, Inside, Polygon, Region, Ring},
     renderer::{MeshId, Renderer},
     repair::{Place, Repair, RepairKind},
     sensor::{Extrusion, Pose, Sensor},
     sensor_set::{SensorDisplay, SensorId, SensorSet, SensorStyle},
+    stroke::{Align, Dash, Stroke},
+    style::{Blend, Fade, FillStyle, Pattern, Ramp},
     view::View,
     zone::Zone,
 };

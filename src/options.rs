@@ -103,25 +103,3 @@ impl Frame {
         }
     }
 }
-
-/// How a fill looks.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FillStyle {
-    /// Red, green, blue, alpha, 0 … 1, not premultiplied, written to the colour target as they are:
-    /// linear values for an sRGB format.
-    pub color: [f32; 4],
-    /// Where fills overlap, the greater lies on top; equal ones in the order of insertion.
-    pub z_index: i32,
-    /// Whether the fill is drawn at all.
-    pub visible: bool,
-}
-
-impl Default for FillStyle {
-    fn default() -> Self {
-        Self {
-            color: [1.0, 0.8, 0.1, 0.5],
-            z_index: 0,
-            visible: true,
-        }
-    }
-}

@@ -15,8 +15,9 @@ use crate::{
     gpu::layer_tables::{LayerTables, require},
     gpu::pipelines::{FAR_PLANE_FEATURES, Key, Pipelines},
     gpu::sensor_pipelines::SensorPipelines,
-    options::{CountTechnique, FillStyle, Frame, RendererOptions},
+    options::{CountTechnique, Frame, RendererOptions},
     sensor_set::SensorSet,
+    style::FillStyle,
     view::View,
 };
 
@@ -138,18 +139,16 @@ impl Renderer {
     ///
     /// # Errors
     /// [`RendererError::NoSuchMesh`], [`RendererError::NoSuchFill`], and
-    /// [`RendererError::InvalidStyle`] if the colour is not finite or its alpha not within 0 … 1; the
-    /// previous style stays.
+    /// [`RendererError::InvalidStyle`], which names the field; the previous style stays.
     pub fn set_style(
         &mut self,
         mesh: MeshId,
         fill: u32,
         style: FillStyle,
     ) -> Result<(), RendererError> {
-        let alpha = style.color[3];
-        if !(style.color.iter().all(|part| part.is_finite()) && (0.0..=1.0).contains(&alpha)) {
-            return Err(RendererError::InvalidStyle { fill });
-        }
+        style
+            .check()
+            .map_err(|error| RendererError::InvalidStyle { fill, error })?;
         let styles = &mut self
             .meshes
             .get_mut(&mesh)

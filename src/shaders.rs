@@ -9,6 +9,7 @@ const COPY_DEPTH: &str = include_str!("../shaders/copy_depth.wgsl");
 const COPY_DEPTH_MULTISAMPLED: &str = include_str!("../shaders/copy_depth_multisampled.wgsl");
 const PLANES_PACKED: &str = include_str!("../shaders/planes_packed.wgsl");
 const PLANES_SEPARATE: &str = include_str!("../shaders/planes_separate.wgsl");
+const LAYER: &str = include_str!("../shaders/layer.wgsl");
 const RESOLVE: &str = include_str!("../shaders/resolve.wgsl");
 const SURFACE: &str = include_str!("../shaders/surface.wgsl");
 const SENSOR: &str = include_str!("../shaders/sensor.wgsl");
@@ -43,12 +44,15 @@ pub fn copy_depth(sample_count: u32) -> String {
 
 /// Decoding and colouring.
 pub fn resolve(sample_count: u32) -> String {
-    let planes = if sample_count > 1 {
+    [SCREEN, planes(sample_count), LAYER, RESOLVE].concat()
+}
+
+fn planes(sample_count: u32) -> &'static str {
+    if sample_count > 1 {
         PLANES_SEPARATE
     } else {
         PLANES_PACKED
-    };
-    [SCREEN, planes, RESOLVE].concat()
+    }
 }
 
 fn depth(sample_count: u32) -> &'static str {

@@ -168,7 +168,8 @@ fn bad_frames_and_styles_are_typed_errors_and_change_nothing() {
             ..Default::default()
         };
         let refused = painter.renderer.set_style(painter.mesh, 0, style);
-        assert_eq!(refused, Err(RendererError::InvalidStyle { fill: 0 }));
+        let error = globefill::StyleError::OutOfRange("color");
+        assert_eq!(refused, Err(RendererError::InvalidStyle { fill: 0, error }));
     }
     let refused = painter
         .renderer

@@ -8,7 +8,8 @@ use crate::{
     error::RendererError,
     fill_mesh::{Bounds, FillMesh},
     frame::code::{Code, Mantissa, PlaneSums},
-    options::{CountTechnique, FillStyle},
+    options::CountTechnique,
+    style::FillStyle,
 };
 
 /// Most layers: each takes a target of the view's size.
@@ -50,7 +51,7 @@ pub(crate) struct PieceCode {
 pub(crate) struct Layering {
     pub technique: CountTechnique,
     pub layers: Vec<Layer>,
-    /// By mesh and piece; `None` where the fill is hidden or fully transparent.
+    /// By mesh and piece; `None` where nothing of the fill is drawn.
     pub codes: Vec<Vec<Option<PieceCode>>>,
 }
 
@@ -114,7 +115,7 @@ fn visible_pieces<'a>(meshes: &[Styled<'a>]) -> Vec<Visible<'a>> {
     for (mesh, styled) in meshes.iter().enumerate() {
         for (piece, stored) in styled.mesh.pieces.iter().enumerate() {
             let style = &styled.styles[stored.fill as usize];
-            if style.visible && style.color[3] > 0.0 {
+            if style.shows() {
                 visible.push(Visible {
                     of: FillOf {
                         mesh,

@@ -98,9 +98,8 @@ fn table(device: &wgpu::Device, layer: &Layer, styled: &[Styled<'_>]) -> wgpu::B
     };
     let mut bytes = bytemuck::bytes_of(&head).to_vec();
     for fill in &layer.fills {
-        let [red, green, blue, alpha] = styled[fill.mesh].styles[fill.fill as usize].color;
-        let premultiplied = [red * alpha, green * alpha, blue * alpha, alpha];
-        bytes.extend_from_slice(bytemuck::bytes_of(&premultiplied));
+        let style = &styled[fill.mesh].styles[fill.fill as usize];
+        bytes.extend_from_slice(bytemuck::bytes_of(&style.solid_color()));
     }
     device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
         label: Some("globefill layer"),

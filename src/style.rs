@@ -1,0 +1,170 @@
+//! How a fill looks.
+
+use crate::{
+    error::StyleError, hatch::Hatch, image_fill::ImageFill, length::Length, stroke::Stroke,
+};
+
+/// How a fill looks: from below a colour, a pattern on it, a highlight, and a stroke along its boundary.
+///
+/// What a style does not use costs nothing: a frame of colours alone is drawn by a pipeline that
+/// knows no patterns, strokes or fades, and needs no surface positions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FillStyle {
+    /// Red, green, blue, alpha, 0 … 1, not premultiplied, written to the colour target as they are:
+    /// linear values for an sRGB format.
+    pub color: [f32; 4],
+    /// Laid over the colour, which shows through where the pattern is transparent.
+    pub pattern: Option<Pattern>,
+    /// Laid over colour and pattern alike, in the same units; alpha 0 for none. To show that a fill is
+    /// selected without touching the rest of its style.
+    pub highlight: [f32; 4],
+    /// A line along the boundary.
+    pub stroke: Option<Stroke>,
+    /// What the whole fill, its stroke included, is multiplied with, 0 … 1.
+    pub opacity: f32,
+    /// Where the fill, its stroke included, fades.
+    pub fade: Fade,
+    /// How the fill meets what is below.
+    pub blend: Blend,
+    /// Where fills overlap, the greater lies on top; equal ones in the order of insertion.
+    pub z_index: i32,
+    /// Whether the fill is drawn at all.
+    pub visible: bool,
+}
+
+impl Default for FillStyle {
+    fn default() -> Self {
+        Self {
+            color: [1.0, 0.8, 0.1, 0.5],
+            pattern: None,
+            highlight: [0.0; 4],
+            stroke: None,
+            opacity: 1.0,
+            fade: Fade::default(),
+            blend: Blend::Alpha,
+            z_index: 0,
+            visible: true,
+        }
+    }
+}
+
+/// What may lie over a fill's colour.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Pattern {
+    /// Lines, crossed lines, dots, a checker or an image of one's own, repeated.
+    Hatch(Hatch),
+    /// A picture that has its place on the globe.
+    Image(ImageFill),
+}
+
+/// How a fill meets what is below it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Blend {
+    /// Over it: premultiplied alpha.
+    #[default]
+    Alpha,
+    /// Added to it, like light.
+    Additive,
+}
+
+/// Where a fill fades, decided at each pixel; the ramps that are given multiply.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Fade {
+    /// By the distance from the eye to the surface, metres.
+    pub distance_m: Option<Ramp>,
+    /// By the length that a pixel spans across the line of sight, metres: the same for a far eye as for
+    /// a wide angle of view.
+    pub pixel_m: Option<Ramp>,
+    /// By the angle between the line of sight and the ellipsoid's tangent plane, radians: π/2 where
+    /// looking straight down, 0 at the limb.
+    pub angle_rad: Option<Ramp>,
+}
+
+/// Full opacity at one value, none at the other, in between in proportion. Either may be the greater.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ramp {
+    /// Here and beyond nothing fades.
+    pub full: f32,
+    /// Here and beyond nothing is left.
+    pub gone: f32,
+}
+
+impl FillStyle {
+    /// Whether anything of the fill is drawn.
+    pub(crate) fn shows(&self) -> bool {
+        let painted = self.color[3] > 0.0 || self.highlight[3] > 0.0;
+        self.visible
+            && self.opacity > 0.0
+            && (painted || self.pattern.is_some() || self.stroke.is_some())
+    }
+
+    /// Colour, highlight, opacity and blend of a solid fill in one: premultiplied, with the alpha that
+    /// hides what is below.
+    pub(crate) fn solid_color(&self) -> [f32; 4] {
+        let over = premultiplied(self.highlight);
+        let below = premultiplied(self.color).map(|part| part * (1.0 - over[3]));
+        let hides = match self.blend {
+            Blend::Alpha => 1.0,
+            Blend::Additive => 0.0,
+        };
+        let mut parts: [f32; 4] =
+            std::array::from_fn(|part| self.opacity * (over[part] + below[part]));
+        parts[3] *= hides;
+        parts
+    }
+
+    /// Checks all that does not depend on the renderer.
+    pub(crate) fn check(&self) -> Result<(), StyleError> {
+        check_color("color", self.color)?;
+        check_color("highlight", self.highlight)?;
+        check_share("opacity", self.opacity)?;
+        let ramps = [
+            ("fade.distance_m", self.fade.distance_m),
+            ("fade.pixel_m", self.fade.pixel_m),
+            ("fade.angle_rad", self.fade.angle_rad),
+        ];
+        for (name, ramp) in ramps {
+            if let Some(Ramp { full, gone }) = ramp
+                && !(full.is_finite() && gone.is_finite() && full != gone)
+            {
+                return Err(StyleError::OutOfRange(name));
+            }
+        }
+        match &self.pattern {
+            Some(Pattern::Hatch(hatch)) => hatch.check()?,
+            Some(Pattern::Image(image)) => image.check()?,
+            None => {}
+        }
+        self.stroke.as_ref().map_or(Ok(()), Stroke::check)
+    }
+}
+
+/// A colour's parts are finite and its alpha is a share.
+pub(crate) fn check_color(name: &'static str, color: [f32; 4]) -> Result<(), StyleError> {
+    if color.iter().all(|part| part.is_finite()) {
+        check_share(name, color[3])
+    } else {
+        Err(StyleError::OutOfRange(name))
+    }
+}
+
+pub(crate) fn check_share(name: &'static str, share: f32) -> Result<(), StyleError> {
+    if (0.0..=1.0).contains(&share) {
+        Ok(())
+    } else {
+        Err(StyleError::OutOfRange(name))
+    }
+}
+
+pub(crate) fn check_length(name: &'static str, length: Length) -> Result<(), StyleError> {
+    if length.is_sound() {
+        Ok(())
+    } else {
+        Err(StyleError::OutOfRange(name))
+    }
+}
+
+/// A colour multiplied by its alpha.
+pub(crate) fn premultiplied([red, green, blue, alpha]: [f32; 4]) -> [f32; 4] {
+    [red * alpha, green * alpha, blue * alpha, alpha]
+}
