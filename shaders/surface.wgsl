@@ -24,7 +24,8 @@ struct Sight {
     blocks: vec4<u32>,
     // Sensors, pages, colours of the coverage, whether gaps are coloured.
     counts: vec4<u32>,
-    // Lowest and highest surface, see strays; z: optical depth of one unit of weight.
+    // Lowest and highest surface, see strays; z: optical depth of one unit of weight; w: the least sine
+    // of obliqueness, see pixel.wgsl.
     bounds: vec4<f32>,
 }
 
@@ -32,13 +33,13 @@ struct Sight {
 
 // What the sensors of the frame need: the rest is compiled away.
 // Some cover from the apex,
-override APEXES: bool;
+override APEXES: bool = false;
 // have an inner cone,
-override INNER_CONES: bool;
+override INNER_CONES: bool = false;
 // have a field of view with corners,
-override CORNERS: bool;
+override CORNERS: bool = false;
 // or a least elevation.
-override ELEVATIONS: bool;
+override ELEVATIONS: bool = false;
 
 // Below this the eye's outside and its differences are of the size of the distances seen.
 const NEAR_M: f32 = 2e5;

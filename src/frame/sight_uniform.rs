@@ -12,6 +12,11 @@ pub(crate) const BLOCK: u32 = 8;
 /// What lies farther than this above or below the host's surface is none of it, metres.
 const SLACK_M: f64 = 1000.0;
 
+/// Sines of the angle between line of sight and surface below which pixels are taken to span no more:
+/// at the limb, where their span is infinite, and on terrain, whose slopes face the eye.
+const LIMB_SINE: f64 = 1e-4;
+const SLOPE_SINE: f64 = 0.2;
+
 /// `Sight` of surface.wgsl; see there.
 #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
@@ -53,6 +58,8 @@ impl SightUniform {
         let eye_gradient = reference.scaled(reference.eye_ecef_m) * (2.0 / ellipsoid.a_m);
         let foot_gradient = reference.scaled(reference.foot_ecef_m);
         let (lowest_m, highest_m) = (sight.surface_m.0 - SLACK_M, sight.surface_m.1 + SLACK_M);
+        let bare = sight.surface_m.0 == sight.surface_m.1;
+        let least_sine = if bare { LIMB_SINE } else { SLOPE_SINE };
         let tiles = divided(size_px, TILE);
         let counted = |grid: UVec2| [grid.x, grid.y, grid.element_product(), 0];
         Self {
@@ -74,7 +81,7 @@ impl SightUniform {
             tiles: counted(tiles),
             blocks: counted(divided(tiles, BLOCK)),
             counts: [0; 4],
-            bounds: [lowest_m as f32, highest_m as f32, 0.0, 0.0],
+            bounds: [lowest_m as f32, highest_m as f32, 0.0, least_sine as f32],
         }
     }
 }
