@@ -2,7 +2,7 @@
 // integers, so their order does not matter.
 
 // Premultiplied colours by the number of sensors, the last for more.
-@group(0) @binding(3) var<storage, read> coverage_colors: array<vec4<f32>>;
+@group(0) @binding(2) var<storage, read> coverage_colors: array<vec4<f32>>;
 
 struct Sums {
     weight: vec4<u32>,

@@ -24,9 +24,9 @@ struct Sensor {
     planes: vec4<u32>,
 }
 
-@group(0) @binding(1) var<storage, read> sensors: array<Sensor>;
+@group(0) @binding(0) var<storage, read> sensors: array<Sensor>;
 // Inward normal and slack at the reference.
-@group(0) @binding(2) var<storage, read> planes: array<vec4<f32>>;
+@group(0) @binding(1) var<storage, read> planes: array<vec4<f32>>;
 
 // Bounds of the least slack at a place, as far as that is known.
 fn slack_of(index: u32, place: Place) -> vec2<f32> {

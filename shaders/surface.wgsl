@@ -29,7 +29,7 @@ struct Sight {
     bounds: vec4<f32>,
 }
 
-@group(0) @binding(0) var<uniform> sight: Sight;
+@group(2) @binding(1) var<uniform> sight: Sight;
 
 // What the sensors of the frame need: the rest is compiled away.
 // Some cover from the apex,

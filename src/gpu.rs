@@ -10,4 +10,5 @@ pub(crate) mod planes;
 pub(crate) mod sensor_pipelines;
 pub(crate) mod sensor_view;
 pub(crate) mod stream_buffer;
+pub(crate) mod surface_binding;
 pub(crate) mod targets;

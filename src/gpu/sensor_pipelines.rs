@@ -2,7 +2,10 @@
 
 use std::collections::HashMap;
 
-use crate::{gpu::pipelines::layout, options::RendererOptions, sensor_set::Needs, shaders};
+use crate::{
+    gpu::pipelines::layout, gpu::surface_binding::surface_layout, options::RendererOptions,
+    sensor_set::Needs, shaders,
+};
 
 /// What a fragment shows of the sensors that cover it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -30,13 +33,13 @@ pub(crate) struct SensorProgram {
 /// Layouts, and the programs made so far.
 pub(crate) struct SensorPipelines {
     options: RendererOptions,
-    /// Camera, sensors, planes, colours of the coverage.
+    /// Sensors, planes, colours of the coverage.
     pub scene_layout: wgpu::BindGroupLayout,
     /// Tiles and lists, written.
     pub binned_layout: wgpu::BindGroupLayout,
     /// Tiles and lists, read.
     pub tiles_layout: wgpu::BindGroupLayout,
-    pub depth_layout: wgpu::BindGroupLayout,
+    pub surface_layout: wgpu::BindGroupLayout,
     /// What is read back.
     pub answer_layout: wgpu::BindGroupLayout,
     made: HashMap<SensorKey, SensorProgram>,
@@ -52,29 +55,23 @@ impl SensorPipelines {
         };
         let read = buffer(wgpu::BufferBindingType::Storage { read_only: true });
         let written = buffer(wgpu::BufferBindingType::Storage { read_only: false });
-        let uniform = buffer(wgpu::BufferBindingType::Uniform);
-        let depth = wgpu::BindingType::Texture {
-            sample_type: wgpu::TextureSampleType::Depth,
-            view_dimension: wgpu::TextureViewDimension::D2,
-            multisampled: options.sample_count > 1,
-        };
         let compute = wgpu::ShaderStages::COMPUTE;
         let make = |label, stages, bindings: &[_]| layout(device, label, stages, bindings);
-        let scene_layout = make("globefill sensors", stages, &[uniform, read, read, read]);
+        let scene_layout = make("globefill sensors", stages, &[read; 3]);
         let binned_layout = make("globefill binned", compute, &[written; 4]);
         let tiles_layout = make(
             "globefill tiles",
             wgpu::ShaderStages::VERTEX_FRAGMENT,
             &[read; 3],
         );
-        let depth_layout = make("globefill depth", stages, &[depth]);
+        let surface_layout = surface_layout(device, options.sample_count, stages);
         let answer_layout = make("globefill answer", compute, &[written]);
         Self {
             options,
             scene_layout,
             binned_layout,
             tiles_layout,
-            depth_layout,
+            surface_layout,
             answer_layout,
             made: HashMap::new(),
         }
@@ -96,7 +93,8 @@ impl SensorPipelines {
     fn make(&self, device: &wgpu::Device, key: SensorKey) -> SensorProgram {
         let samples = self.options.sample_count;
         let steps = |source, groups, entries: &[&str]| {
-            let layout = pipeline_layout(device, [&self.scene_layout, groups, &self.depth_layout]);
+            let layout =
+                pipeline_layout(device, [&self.scene_layout, groups, &self.surface_layout]);
             compute_pipelines(device, source, &layout, entries, key.needs)
         };
         let binning = ["cs_range", "cs_bin_blocks", "cs_bin_tiles"];
@@ -118,7 +116,7 @@ impl SensorPipelines {
         };
         let constants = constants(key.needs);
         let module = module(device, shaders::resolve_sensors(samples));
-        let layouts = [&self.scene_layout, &self.tiles_layout, &self.depth_layout];
+        let layouts = [&self.scene_layout, &self.tiles_layout, &self.surface_layout];
         device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(entry),
             layout: Some(&pipeline_layout(device, layouts)),

@@ -8,6 +8,7 @@ use crate::{
     frame::sight_uniform::{SightUniform, TILE, divided},
     gpu::sensor_pipelines::{SensorKey, SensorPipelines},
     gpu::stream_buffer::StreamBuffer,
+    gpu::surface_binding::SurfaceBinding,
     options::Frame,
     sensor_set::{SensorDisplay, SensorSet, Version},
 };
@@ -27,14 +28,12 @@ pub(crate) const TILE_BYTES: u64 = 48;
 /// Buffers and bindings of one view.
 pub(crate) struct SensorView {
     records: SensorRecords,
-    uniform: StreamBuffer,
+    surface: SurfaceBinding,
     sensors: StreamBuffer,
     planes: StreamBuffer,
     colors: StreamBuffer,
     tiles: Option<Tiles>,
     scene: Option<wgpu::BindGroup>,
-    /// The depth last given to `count`.
-    depth: Option<(wgpu::TextureView, wgpu::BindGroup)>,
     /// What is drawn, if anything is.
     pub key: Option<SensorKey>,
     pub block_count: u32,
@@ -65,13 +64,12 @@ impl SensorView {
         let storage = wgpu::BufferUsages::STORAGE;
         Self {
             records: SensorRecords::default(),
-            uniform: stream("globefill sight", wgpu::BufferUsages::UNIFORM),
+            surface: SurfaceBinding::new(device),
             sensors: stream("globefill sensors", storage),
             planes: stream("globefill planes", storage),
             colors: stream("globefill coverage colours", storage),
             tiles: None,
             scene: None,
-            depth: None,
             key: None,
             block_count: 0,
             tile_count: 0,
@@ -108,10 +106,9 @@ impl SensorView {
             }
         };
         uniform.counts[2] = colors.len() as u32;
-        let mut bytes = 0;
+        let mut bytes = self.surface.write(device, queue, &uniform);
         let mut moved = self.scene.is_none();
-        let uploads: [(&mut StreamBuffer, &[u8]); 4] = [
-            (&mut self.uniform, bytemuck::bytes_of(&uniform)),
+        let uploads: [(&mut StreamBuffer, &[u8]); 3] = [
             (
                 &mut self.sensors,
                 bytemuck::cast_slice(&self.records.records),
@@ -135,7 +132,7 @@ impl SensorView {
     }
 
     fn bind(&mut self, device: &wgpu::Device, pipelines: &SensorPipelines) {
-        let streams = [&self.uniform, &self.sensors, &self.planes, &self.colors];
+        let streams = [&self.sensors, &self.planes, &self.colors];
         let buffers = streams.map(|stream| &stream.buffer);
         self.scene = Some(group(device, &pipelines.scene_layout, &buffers));
     }
@@ -151,8 +148,9 @@ impl SensorView {
         let Some(program) = self.key.and_then(|key| pipelines.get(key)) else {
             return;
         };
-        self.bind_depth(device, pipelines, depth);
-        let (Some(scene), Some(tiles), Some((_, depth))) = (&self.scene, &self.tiles, &self.depth)
+        self.surface.bind(device, &pipelines.surface_layout, depth);
+        let (Some(scene), Some(tiles), Some(surface)) =
+            (&self.scene, &self.tiles, self.surface.group())
         else {
             return;
         };
@@ -161,7 +159,7 @@ impl SensorView {
             label: Some("globefill bin sensors"),
             timestamp_writes: None,
         });
-        for (index, group) in (0..).zip([scene, &tiles.binned, depth]) {
+        for (index, group) in (0..).zip([scene, &tiles.binned, surface]) {
             pass.set_bind_group(index, group, &[]);
         }
         let counts = [self.tile_count, self.block_count, self.tile_count];
@@ -171,38 +169,18 @@ impl SensorView {
         }
     }
 
-    fn bind_depth(
-        &mut self,
-        device: &wgpu::Device,
-        pipelines: &SensorPipelines,
-        depth: &wgpu::TextureView,
-    ) {
-        if self.depth.as_ref().is_some_and(|(view, _)| view == depth) {
-            return;
-        }
-        let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("globefill depth"),
-            layout: &pipelines.depth_layout,
-            entries: &[wgpu::BindGroupEntry {
-                binding: 0,
-                resource: wgpu::BindingResource::TextureView(&crate::gpu::count::depth_only(depth)),
-            }],
-        });
-        self.depth = Some((depth.clone(), group));
-    }
-
     /// Draws the tiles into the host's pass.
     pub(crate) fn resolve(&self, pipelines: &SensorPipelines, pass: &mut wgpu::RenderPass<'_>) {
-        let (Some(scene), Some(tiles), Some((_, depth)), Some(program)) = (
+        let (Some(scene), Some(tiles), Some(surface), Some(program)) = (
             &self.scene,
             &self.tiles,
-            &self.depth,
+            self.surface.group(),
             self.key.and_then(|key| pipelines.get(key)),
         ) else {
             return;
         };
         pass.set_pipeline(&program.resolve);
-        for (index, group) in (0..).zip([scene, &tiles.read, depth]) {
+        for (index, group) in (0..).zip([scene, &tiles.read, surface]) {
             pass.set_bind_group(index, group, &[]);
         }
         pass.draw(0..4, 0..self.block_count);
@@ -218,7 +196,8 @@ impl SensorView {
         answer: &wgpu::Buffer,
     ) -> bool {
         let program = self.key.and_then(|key| pipelines.get(key));
-        let (Some(scene), Some((_, depth)), Some(program)) = (&self.scene, &self.depth, program)
+        let (Some(scene), Some(surface), Some(program)) =
+            (&self.scene, self.surface.group(), program)
         else {
             return false;
         };
@@ -227,7 +206,7 @@ impl SensorView {
             label: Some("globefill count sensors"),
             timestamp_writes: None,
         });
-        for (index, group) in (0..).zip([scene, &answer, depth]) {
+        for (index, group) in (0..).zip([scene, &answer, surface]) {
             pass.set_bind_group(index, group, &[]);
         }
         for pipeline in &program.counting {
