@@ -197,6 +197,22 @@ pub enum RendererError {
         /// What is wrong.
         error: StyleError,
     },
+    /// The identifier was not given out by this renderer, or its image was removed.
+    #[error("no such image in this renderer")]
+    NoSuchImage,
+    /// A style still shows the image.
+    #[error("a style shows this image")]
+    ImageInUse,
+    /// The device's textures cannot be as large as the image.
+    #[error("an image of {width}x{height} texels; the device's textures have at most {most} a side")]
+    ImageTooLarge {
+        /// Its width, texels.
+        width: u32,
+        /// Its height, texels.
+        height: u32,
+        /// Most texels a side.
+        most: u32,
+    },
     /// Fills overlap deeper than there are layers.
     #[error("overlapping fills need {needed} layers, the renderer has {most}")]
     TooManyLayers {

@@ -2,6 +2,7 @@
 
 pub(crate) mod code;
 pub(crate) mod layers;
+pub(crate) mod placed;
 pub(crate) mod reference;
 pub(crate) mod refine;
 pub(crate) mod select;

@@ -15,6 +15,8 @@ pub struct FrameStats {
     pub technique: CountTechnique,
     /// Layers of mutually disjoint fills.
     pub layers: u32,
+    /// Layers that are resolved with patterns, strokes or fades: 0 where plain colours say all.
+    pub styled_layers: u32,
     /// Render passes that `count` records.
     pub passes: u32,
     /// Draw calls, of `count` and `resolve`.

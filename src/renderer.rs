@@ -2,6 +2,7 @@
 
 mod prepare;
 mod sensors;
+mod styles;
 
 use std::collections::BTreeMap;
 
@@ -11,10 +12,13 @@ use crate::{
     frame::code::Mantissa,
     frame_stats::FrameStats,
     gpu::count::{Drawn, Recorder},
+    frame::placed::PatternPlace,
     gpu::gpu_mesh::GpuMesh,
+    gpu::image_arrays::ImageArrays,
     gpu::layer_tables::{LayerTables, require},
     gpu::pipelines::{FAR_PLANE_FEATURES, Key, Pipelines},
     gpu::sensor_pipelines::SensorPipelines,
+    gpu::style_pipelines::StylePipelines,
     options::{CountTechnique, Frame, RendererOptions},
     sensor_set::SensorSet,
     style::FillStyle,
@@ -43,6 +47,10 @@ pub struct Renderer {
     layers: Option<Result<LayerTables, RendererError>>,
     /// Layers for the stencil, once a frame had no head-room for winding sums.
     fallback: Option<Result<LayerTables, RendererError>>,
+    /// Made when a frame first needs them.
+    style_pipelines: Option<StylePipelines>,
+    /// Made for the first image, or when a frame first has styles that may show one.
+    images: Option<ImageArrays>,
     sensors: SensorSet,
     /// Made when a frame first has sensors.
     sensor_pipelines: Option<SensorPipelines>,
@@ -51,6 +59,8 @@ pub struct Renderer {
 struct Resident {
     mesh: FillMesh,
     styles: Vec<FillStyle>,
+    /// Where the patterns of the styles lie.
+    places: Vec<Option<PatternPlace>>,
     gpu: GpuMesh,
 }
 
@@ -105,6 +115,8 @@ impl Renderer {
             revision: 0,
             layers: None,
             fallback: None,
+            style_pipelines: None,
+            images: None,
             sensors: SensorSet::default(),
             sensor_pipelines: None,
         })
@@ -117,6 +129,7 @@ impl Renderer {
         let resident = Resident {
             gpu: GpuMesh::new(&self.device, &mesh),
             styles: vec![FillStyle::default(); mesh.fills.len()],
+            places: vec![None; mesh.fills.len()],
             mesh,
         };
         self.meshes.insert(id, resident);
@@ -131,37 +144,6 @@ impl Renderer {
     pub fn remove(&mut self, mesh: MeshId) -> Result<(), RendererError> {
         self.meshes.remove(&mesh).ok_or(RendererError::NoSuchMesh)?;
         self.changed();
-        Ok(())
-    }
-
-    /// Sets how a fill looks from the next `prepare` on; `fill` is the index of its region in the
-    /// mesh.
-    ///
-    /// # Errors
-    /// [`RendererError::NoSuchMesh`], [`RendererError::NoSuchFill`], and
-    /// [`RendererError::InvalidStyle`], which names the field; the previous style stays.
-    pub fn set_style(
-        &mut self,
-        mesh: MeshId,
-        fill: u32,
-        style: FillStyle,
-    ) -> Result<(), RendererError> {
-        style
-            .check()
-            .map_err(|error| RendererError::InvalidStyle { fill, error })?;
-        let styles = &mut self
-            .meshes
-            .get_mut(&mesh)
-            .ok_or(RendererError::NoSuchMesh)?
-            .styles;
-        let fills = styles.len() as u32;
-        let current = styles
-            .get_mut(fill as usize)
-            .ok_or(RendererError::NoSuchFill { fill, fills })?;
-        if *current != style {
-            *current = style;
-            self.changed();
-        }
         Ok(())
     }
 
@@ -235,6 +217,7 @@ impl Renderer {
         statistics: Option<&wgpu::QuerySet>,
     ) {
         self.bin_sensors(view, encoder, depth);
+        self.bind_surface(view, depth);
         let (Some(prepared), Some(targets)) = (view.prepared, &view.targets) else {
             return;
         };
@@ -266,10 +249,12 @@ impl Renderer {
         if let Some(targets) = &view.targets
             && !targets.layers.is_empty()
         {
-            pass.set_pipeline(self.pipelines.get(Key::Resolve));
-            for layer in &targets.layers {
+            for (index, layer) in targets.layers.iter().enumerate() {
                 pass.set_bind_group(0, &layer.resolve_group, &[]);
-                pass.draw(0..3, 0..1);
+                if !self.resolve_styled(view, pass, index) {
+                    pass.set_pipeline(self.pipelines.get(Key::Resolve));
+                    pass.draw(0..3, 0..1);
+                }
             }
         }
         self.resolve_sensors(view, pass);

@@ -11,6 +11,13 @@ const PLANES_PACKED: &str = include_str!("../shaders/planes_packed.wgsl");
 const PLANES_SEPARATE: &str = include_str!("../shaders/planes_separate.wgsl");
 const LAYER: &str = include_str!("../shaders/layer.wgsl");
 const RESOLVE: &str = include_str!("../shaders/resolve.wgsl");
+const ARCTANGENT: &str = include_str!("../shaders/arctangent.wgsl");
+const STYLE: &str = include_str!("../shaders/style.wgsl");
+const MAP: &str = include_str!("../shaders/map.wgsl");
+const HATCH: &str = include_str!("../shaders/hatch.wgsl");
+const PICTURE: &str = include_str!("../shaders/picture.wgsl");
+const RESOLVE_STYLED: &str = include_str!("../shaders/resolve_styled.wgsl");
+const PIXEL: &str = include_str!("../shaders/pixel.wgsl");
 const SURFACE: &str = include_str!("../shaders/surface.wgsl");
 const SENSOR: &str = include_str!("../shaders/sensor.wgsl");
 const DEPTH: &str = include_str!("../shaders/depth.wgsl");
@@ -45,6 +52,25 @@ pub fn copy_depth(sample_count: u32) -> String {
 /// Decoding and colouring.
 pub fn resolve(sample_count: u32) -> String {
     [SCREEN, planes(sample_count), LAYER, RESOLVE].concat()
+}
+
+/// Decoding, surface positions, patterns.
+pub fn resolve_styled(sample_count: u32) -> String {
+    let parts = [
+        SCREEN,
+        planes(sample_count),
+        LAYER,
+        depth(sample_count),
+        SURFACE,
+        PIXEL,
+        ARCTANGENT,
+        STYLE,
+        MAP,
+        HATCH,
+        PICTURE,
+        RESOLVE_STYLED,
+    ];
+    parts.concat()
 }
 
 fn planes(sample_count: u32) -> &'static str {
@@ -99,6 +125,8 @@ pub fn all() -> Vec<(&'static str, String)> {
         ("copy_depth_multisampled", copy_depth(4)),
         ("resolve", resolve(1)),
         ("resolve_multisampled", resolve(4)),
+        ("resolve_styled", resolve_styled(1)),
+        ("resolve_styled_multisampled", resolve_styled(4)),
         ("bin_sensors", bin_sensors(1)),
         ("bin_sensors_multisampled", bin_sensors(4)),
         ("count_sensors", count_sensors(1)),

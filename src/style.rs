@@ -57,6 +57,20 @@ pub enum Pattern {
     Image(ImageFill),
 }
 
+impl Pattern {
+    /// The image it shows.
+    pub fn image(&self) -> Option<ImageId> {
+        match self {
+            Self::Hatch(Hatch {
+                kind: HatchKind::Image(image),
+                ..
+            }) => Some(*image),
+            Self::Hatch(_) => None,
+            Self::Image(fill) => Some(fill.image),
+        }
+    }
+}
+
 /// How a fill meets what is below it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Blend {

@@ -12,6 +12,7 @@ use crate::{
     gpu::pipelines::Pipelines,
     gpu::sensor_view::SensorView,
     gpu::stream_buffer::StreamBuffer,
+    gpu::style_view::StyleView,
     gpu::targets::Targets,
     options::{CountTechnique, Frame},
     renderer::MeshId,
@@ -23,6 +24,8 @@ use crate::{
 pub struct View {
     pub(crate) targets: Option<Targets>,
     pub(crate) meshes: HashMap<MeshId, MeshView>,
+    /// Only while there are patterns, strokes or fades.
+    pub(crate) styles: Option<StyleView>,
     /// Only while there are sensors.
     pub(crate) sensors: Option<SensorView>,
     /// What the last `prepare` was given, and its answer.

@@ -6,14 +6,20 @@ use crate::{
     error::RendererError,
     frame::code::{Mantissa, PlaneSums},
     frame::layers::{Layer, Layering, Styled},
+    frame::placed::PatternPlace,
     gpu::planes::Planes,
+    gpu::style_table::{StyleSource, StyleTable},
     options::CountTechnique,
 };
 
-/// The layers of everything visible, with the table of each that resolve reads.
+/// The layers of everything visible, with the tables of each that resolve reads.
 pub(crate) struct LayerTables {
     pub layering: Layering,
     pub tables: Vec<wgpu::Buffer>,
+    /// Of the layers that plain colours do not do for.
+    pub styles: Vec<Option<StyleTable>>,
+    /// Where their patterns lie.
+    pub places: Vec<PatternPlace>,
     /// Bytes uploaded for the tables.
     pub bytes: u64,
     mantissa: Mantissa,
@@ -23,11 +29,11 @@ impl LayerTables {
     /// Assigns layers and uploads their tables; `mantissa` is that of targets that can be summed in.
     pub(crate) fn new(
         device: &wgpu::Device,
-        styled: &[Styled<'_>],
+        from: &StyleSource<'_>,
         technique: CountTechnique,
         mantissa: Mantissa,
     ) -> Result<Self, RendererError> {
-        let layering = Layering::assign(styled, technique, mantissa)?;
+        let layering = Layering::assign(from.styled, technique, mantissa)?;
         // Where the stencil counts, nothing is summed and 32-bit targets need no blending.
         let mantissa = match layering.technique {
             CountTechnique::Winding => mantissa,
@@ -39,11 +45,24 @@ impl LayerTables {
         let tables: Vec<wgpu::Buffer> = layering
             .layers
             .iter()
-            .map(|layer| table(device, layer, styled))
+            .map(|layer| table(device, layer, from.styled))
             .collect();
+        let mut places = Vec::new();
+        let styles: Vec<Option<StyleTable>> = layering
+            .layers
+            .iter()
+            .map(|layer| StyleTable::new(device, layer, from, false, &mut places))
+            .collect();
+        let style_buffers = styles.iter().flatten().map(|table| &table.styles);
         Ok(Self {
-            bytes: tables.iter().map(wgpu::Buffer::size).sum(),
+            bytes: tables
+                .iter()
+                .chain(style_buffers)
+                .map(wgpu::Buffer::size)
+                .sum(),
             layering,
+            styles,
+            places,
             tables,
             mantissa,
         })

@@ -5,12 +5,14 @@ use crate::{
     error::RendererError,
     frame::code::PlaneSums,
     frame::layers::Styled,
+    frame::placed::PatternPlace,
     frame::select::{LayerDraws, Selection},
     frame::sight::Sight,
     frame::volumes::volumes,
     frame_stats::FrameStats,
     gpu::count,
     gpu::layer_tables::{LayerTables, require},
+    gpu::style_table::StyleSource,
     gpu::pipelines::{FAR_PLANE_FEATURES, Input, Key},
     gpu::targets::{Targets, TargetsKey},
     options::{CountTechnique, Frame},
@@ -52,7 +54,9 @@ impl Renderer {
         }
         self.ensure_targets(view, frame, choice)?;
         self.ensure_pipelines(&prepared, &selections, choice)?;
-        prepared.stats.upload_bytes = table_bytes + self.upload(queue, view, selections);
+        let place_bytes = self.prepare_styles(queue, view, &prepared, &selections, choice)?;
+        let mesh_bytes = self.upload(queue, view, selections);
+        prepared.stats.upload_bytes = table_bytes + place_bytes + mesh_bytes;
         self.fill_stats(view, &mut prepared);
         view.prepared = Some(prepared);
         Ok(prepared.stats)
@@ -92,7 +96,17 @@ impl Renderer {
                 styles: &resident.styles,
             })
             .collect();
-        LayerTables::new(&self.device, &styled, technique, self.mantissa)
+        let places: Vec<&[Option<PatternPlace>]> = self
+            .meshes
+            .values()
+            .map(|resident| resident.places.as_slice())
+            .collect();
+        let from = StyleSource {
+            styled: &styled,
+            places: &places,
+            images: self.images.as_ref(),
+        };
+        LayerTables::new(&self.device, &from, technique, self.mantissa)
     }
 
     /// Whether the sums of this frame, refined walls included, are proven exact.
@@ -111,7 +125,7 @@ impl Renderer {
         Ok(layers.leave_room_for(&refined))
     }
 
-    fn layers(&self, choice: Choice) -> Result<&LayerTables, RendererError> {
+    pub(super) fn layers(&self, choice: Choice) -> Result<&LayerTables, RendererError> {
         let layers = match choice {
             Choice::Wanted => &self.layers,
             Choice::Fallback => &self.fallback,
@@ -249,8 +263,15 @@ impl Renderer {
             .targets
             .as_ref()
             .map_or(0, |targets| targets.layers.len() as u32);
-        // Resolve draws a triangle a layer; the stencil copies the depth once.
-        stats.draws += stats.layers;
+        // Resolve draws a triangle a layer, or one for each array of images; the stencil copies the depth.
+        for layer in 0..stats.layers as usize {
+            let styled = view
+                .styles
+                .as_ref()
+                .and_then(|styles| styles.draws_of(layer));
+            stats.styled_layers += u32::from(styled.is_some());
+            stats.draws += styled.unwrap_or(1);
+        }
         stats.passes = stats.layers;
         if prepared.technique == CountTechnique::Stencil && stats.layers > 0 {
             stats.draws += 1;
@@ -261,7 +282,7 @@ impl Renderer {
 
 /// Which layers a frame is counted in.
 #[derive(Clone, Copy)]
-enum Choice {
+pub(super) enum Choice {
     /// Those of the technique asked for.
     Wanted,
     /// Those of the stencil.
@@ -269,8 +290,8 @@ enum Choice {
 }
 
 /// What a frame shows of one mesh.
-struct Selected {
+pub(super) struct Selected {
     id: MeshId,
-    sight: Sight,
+    pub(super) sight: Sight,
     selection: Selection,
 }

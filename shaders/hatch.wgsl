@@ -1,0 +1,109 @@
+// Patterns that repeat: how much of a pixel is ink. A pattern repeats along u and v with periods of one
+// unit, or of 2^k units with k chosen at each pixel so that it looks as wide as asked for. Averages over
+// the pixel are exact for lines and squares, and for dots but for their bend within a pixel.
+
+// Halfway from one k to the next, while the period looks 2^0.5 too large or too small, every other line
+// grows and the rest vanish; they do within this share of the way on either side.
+const CHANGE: f32 = 0.08;
+
+// Periods along one axis.
+struct Cells {
+    // Where the pixel is, in periods from the last line whose number is `number`.
+    at: f32,
+    // The lowest two bits of it.
+    number: u32,
+    // Width of the pixel, in periods.
+    width: f32,
+    // How far the lines with odd numbers have vanished, 0 ... 1.
+    change: f32,
+}
+
+// `phase`: whole and fraction of the coordinate at the eye's foot point; `from_foot`: the difference from
+// there; `width`: how much it changes across the pixel; `wanted`: the period in pixels, 0 for one unit.
+fn cells_of(phase: vec2<u32>, from_foot: f32, width: f32, wanted: f32) -> Cells {
+    if wanted == 0.0 {
+        return Cells(from_foot + fraction_of(phase.y), phase.x, width, 0.0);
+    }
+    let level = clamp(log2(max(wanted * width, 1e-9)), -24.0, 29.0);
+    let k = i32(floor(level));
+    let scale = exp2(-f32(k));
+    // The coordinate divided by 2^k: the same bits, shifted. Those of a shift by 0 or 32 are left out.
+    let left = u32(max(-k, 0));
+    let right = u32(max(k, 0));
+    let whole = select(phase.x >> right, (phase.x << left) | (phase.y >> (32u - left)), k < 0);
+    let carried = select((phase.y >> right) | (phase.x << (32u - right)), phase.y << left, k < 0);
+    let fraction = select(carried, phase.y, k == 0);
+    let change = smoothstep(0.5 - CHANGE, 0.5 + CHANGE, level - f32(k));
+    return Cells(from_foot * scale + fraction_of(fraction), whole, width * scale, change);
+}
+
+fn fraction_of(bits: u32) -> f32 {
+    return f32(bits >> 8u) / 16777216.0;
+}
+
+// Share of a pixel of `width` about `at` that lies within `half` of 0.
+fn overlap(at: f32, width: f32, half: f32) -> f32 {
+    let both = min(at + 0.5 * width, half) - max(at - 0.5 * width, -half);
+    return max(both, 0.0) / width;
+}
+
+// Where pixels are wider than a period, only the mean is left.
+fn blur(width: f32) -> f32 {
+    return smoothstep(0.7, 1.0, width);
+}
+
+// Lines that cover `share`.
+fn lines(cells: Cells, share: f32) -> f32 {
+    let nearest = round(cells.at);
+    let at = cells.at - nearest;
+    let odd = ((cells.number + u32(i32(nearest))) & 1u) == 1u;
+    let grown = 0.5 * share * (1.0 + cells.change);
+    let shrunk = 0.5 * share * (1.0 - cells.change);
+    let here = select(grown, shrunk, odd);
+    let beside = select(shrunk, grown, odd);
+    let width = clamp(cells.width, 1e-6, 1.0);
+    let covered = overlap(at, width, here) + overlap(at - 1.0, width, beside)
+        + overlap(at + 1.0, width, beside);
+    return mix(covered, share, blur(cells.width));
+}
+
+// A wave that is 1 on even and -1 on odd squares.
+fn squares(at: f32, number: u32, width: f32) -> f32 {
+    let nearest = round(at);
+    let odd = ((number + u32(i32(nearest))) & 1u) == 1u;
+    let rising = clamp((at - nearest) * 2.0 / clamp(width, 1e-6, 1.0), -1.0, 1.0);
+    return select(rising, -rising, odd) * (1.0 - blur(width));
+}
+
+fn checker_wave(cells: Cells) -> f32 {
+    let fine = squares(cells.at, cells.number, cells.width);
+    let coarse_at = 0.5 * (cells.at + f32(cells.number & 1u));
+    let coarse = squares(coarse_at, cells.number >> 1u, 0.5 * cells.width);
+    return mix(fine, coarse, cells.change);
+}
+
+// Dots: ellipses on the grid of both axes' lines, that grow with the lines that grow.
+fn dots(u: Cells, v: Cells, right: vec2<f32>, down: vec2<f32>, share: f32) -> f32 {
+    let cells = vec2<f32>(u.at, v.at);
+    let nearest = round(cells);
+    let at = cells - nearest;
+    let number = vec2<u32>(u.number, v.number) + vec2<u32>(vec2<i32>(nearest));
+    let odd = (number & vec2<u32>(1u)) == vec2<u32>(1u);
+    let change = vec2<f32>(u.change, v.change);
+    let grown = select(1.0 + change, vec2<f32>(1.0), odd);
+    let shrunk = select(vec2<f32>(1.0), sqrt(1.0 - change), odd);
+    let radii = max(sqrt(share / PI) * grown * shrunk.x * shrunk.y, vec2<f32>(1e-4));
+    // Distances from the middle and to the edge beyond, pixels: of a function that is 1 at the edge, by its
+    // slope.
+    let scaled = at / radii;
+    let level = max(length(scaled), 1e-3);
+    let slope = scaled / (level * radii);
+    let radius = 1.0 / max(length(vec2<f32>(dot(slope, right), dot(slope, down))), 1e-9);
+    // A ramp of 1 px about the edge of a disc covers 1/12 px^2 more than the disc; smaller discs than that
+    // is good for are drawn paler.
+    let drawn = max(radius, 0.5);
+    let trimmed = sqrt(drawn * drawn - 1.0 / 12.0);
+    let paler = radius / drawn;
+    let covered = saturate(trimmed - level * radius + 0.5) * paler * paler;
+    return mix(covered, share, blur(1.6 * max(u.width, v.width)));
+}

@@ -1,0 +1,90 @@
+// Resolving fills with patterns, fades or strokes: the fill that the counted sums name, and the surface
+// point that the depth tells, make the colour.
+
+struct Screen {
+    @builtin(position) position: vec4<f32>,
+    // The array of images that this draw shows.
+    @location(0) @interpolate(flat) array: u32,
+}
+
+@vertex
+fn vs_styled(@builtin(vertex_index) corner: u32, @builtin(instance_index) array: u32) -> Screen {
+    return Screen(screen_corner(corner), array);
+}
+
+// Ink of a pattern that lies at a place on its map or its longitudes and latitudes.
+fn ink_of(style: u32, seen: Seen) -> vec4<f32> {
+    let kind = styles[style].pattern.x;
+    let place = styles[style].pattern.y;
+    let phase = places[place].phase;
+    var mapped = on_map(places[place], seen);
+    if needs(NEEDS_ANGLES) && places[place].fall.w != 0.0 {
+        mapped = on_angles(places[place], seen);
+    }
+    var covered = 0.0;
+    if needs(NEEDS_LINES | NEEDS_DOTS | NEEDS_CHECKER) {
+        let hatch = styles[style].hatch;
+        let u_width = length(vec2<f32>(mapped.right.x, mapped.down.x));
+        let u = cells_of(phase.xy, mapped.uv.x, u_width, hatch.y);
+        if needs(NEEDS_LINES) && (kind == LINES || kind == CROSS) {
+            covered = lines(u, hatch.x);
+        }
+        if needs(NEEDS_ACROSS) {
+            let v_width = length(vec2<f32>(mapped.right.y, mapped.down.y));
+            let v = cells_of(phase.zw, mapped.uv.y, v_width, hatch.y);
+            if needs(NEEDS_LINES) && kind == CROSS {
+                covered = 1.0 - (1.0 - covered) * (1.0 - lines(v, hatch.x));
+            }
+            if needs(NEEDS_DOTS) && kind == DOTS {
+                let periods = vec2<f32>(u.width / max(u_width, 1e-30), v.width / max(v_width, 1e-30));
+                covered = dots(u, v, mapped.right * periods, mapped.down * periods, hatch.x);
+            }
+            if needs(NEEDS_CHECKER) && kind == CHECKER {
+                covered = 0.5 + 0.5 * checker_wave(u) * checker_wave(v);
+            }
+        }
+    }
+    var ink = styles[style].ink * covered;
+    if needs(NEEDS_TILES) && kind == TILES {
+        ink = tiles(style, phase, mapped);
+    }
+    if needs(NEEDS_CLAMPED | NEEDS_REPEATED) && kind == PICTURE {
+        ink = picture(style, phase, mapped);
+    }
+    return ink;
+}
+
+fn over(above: vec4<f32>, below: vec4<f32>) -> vec4<f32> {
+    return above + below * (1.0 - above.w);
+}
+
+// The colour of a fill without its stroke, premultiplied.
+fn paint_of(style: u32, seen: Seen) -> vec4<f32> {
+    let patterned = over(ink_of(style, seen), styles[style].color);
+    return over(styles[style].highlight, patterned);
+}
+
+fn styled_at(pixel: vec2<u32>, sample: u32, array: u32) -> vec4<f32> {
+    let fill = fill_at(vec2<i32>(pixel), sample);
+    let depth = depth_at(pixel, sample);
+    if fill == NONE || is_sky(depth) {
+        discard;
+    }
+    let style = fill - 1u;
+    if styles[style].pattern.w != array {
+        discard;
+    }
+    let seen = seen_at(vec2<f32>(pixel) + sample_px(sample), depth);
+    let color = paint_of(style, seen) * opacity_of(style, seen);
+    return vec4<f32>(color.xyz, color.w * styles[style].fade_sine.z);
+}
+
+@fragment
+fn fs_styled(in: Screen) -> @location(0) vec4<f32> {
+    return styled_at(vec2<u32>(in.position.xy), 0u, in.array);
+}
+
+@fragment
+fn fs_styled_sample(in: Screen, @builtin(sample_index) sample: u32) -> @location(0) vec4<f32> {
+    return styled_at(vec2<u32>(in.position.xy), sample, in.array);
+}

@@ -1,0 +1,110 @@
+//! Pipelines that resolve layers with patterns, strokes or fades, compiled when a frame first has some.
+
+use std::collections::HashMap;
+
+use crate::{
+    gpu::pipelines::layout, gpu::style_table::Needs, gpu::surface_binding::surface_layout,
+    options::RendererOptions, shaders,
+};
+
+/// Layouts, the shader module and the pipelines made so far.
+pub(crate) struct StylePipelines {
+    options: RendererOptions,
+    /// Styles of a layer, places of patterns.
+    pub style_layout: wgpu::BindGroupLayout,
+    pub surface_layout: wgpu::BindGroupLayout,
+    pipeline_layout: wgpu::PipelineLayout,
+    module: wgpu::ShaderModule,
+    made: HashMap<Needs, wgpu::RenderPipeline>,
+}
+
+impl StylePipelines {
+    /// `layer_layout` is that of a layer's table and sums.
+    pub(crate) fn new(
+        device: &wgpu::Device,
+        options: RendererOptions,
+        layer_layout: &wgpu::BindGroupLayout,
+        image_layout: &wgpu::BindGroupLayout,
+    ) -> Self {
+        let fragment = wgpu::ShaderStages::FRAGMENT;
+        let read = wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Storage { read_only: true },
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        };
+        let style_layout = layout(device, "globefill styles", fragment, &[read; 2]);
+        let surface_layout = surface_layout(device, options.sample_count, fragment);
+        let groups = [layer_layout, &style_layout, &surface_layout, image_layout];
+        let source = shaders::resolve_styled(options.sample_count);
+        Self {
+            options,
+            pipeline_layout: device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                label: Some("globefill styled"),
+                bind_group_layouts: &groups.map(Some),
+                immediate_size: 0,
+            }),
+            style_layout,
+            surface_layout,
+            module: device.create_shader_module(wgpu::ShaderModuleDescriptor {
+                label: Some("globefill styled"),
+                source: wgpu::ShaderSource::Wgsl(source.into()),
+            }),
+            made: HashMap::new(),
+        }
+    }
+
+    /// Compiles the pipeline if it does not exist yet.
+    pub(crate) fn ensure(&mut self, device: &wgpu::Device, needs: Needs) {
+        if !self.made.contains_key(&needs) {
+            let pipeline = self.make(device, needs);
+            self.made.insert(needs, pipeline);
+        }
+    }
+
+    /// A pipeline that `ensure` was called for.
+    pub(crate) fn get(&self, needs: Needs) -> Option<&wgpu::RenderPipeline> {
+        self.made.get(&needs)
+    }
+
+    fn make(&self, device: &wgpu::Device, needs: Needs) -> wgpu::RenderPipeline {
+        let samples = self.options.sample_count;
+        let entry = if samples > 1 {
+            "fs_styled_sample"
+        } else {
+            "fs_styled"
+        };
+        let constants = [("NEEDS", f64::from(needs))];
+        let options = wgpu::PipelineCompilationOptions {
+            constants: &constants,
+            ..Default::default()
+        };
+        device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some(entry),
+            layout: Some(&self.pipeline_layout),
+            vertex: wgpu::VertexState {
+                module: &self.module,
+                entry_point: Some("vs_styled"),
+                compilation_options: options.clone(),
+                buffers: &[],
+            },
+            primitive: wgpu::PrimitiveState::default(),
+            depth_stencil: None,
+            multisample: wgpu::MultisampleState {
+                count: samples,
+                ..Default::default()
+            },
+            fragment: Some(wgpu::FragmentState {
+                module: &self.module,
+                entry_point: Some(entry),
+                compilation_options: options,
+                targets: &[Some(wgpu::ColorTargetState {
+                    format: self.options.color_format,
+                    blend: Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
+                    write_mask: wgpu::ColorWrites::ALL,
+                })],
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+    }
+}

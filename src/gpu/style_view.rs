@@ -1,0 +1,128 @@
+//! What a view keeps of styles: where its eye finds the patterns, and what is bound.
+
+use crate::{
+    frame::placed::{PatternPlace, Placed},
+    frame::reference::Reference,
+    frame::sight_uniform::SightUniform,
+    gpu::image_arrays::ImageArrays,
+    gpu::layer_tables::LayerTables,
+    gpu::style_pipelines::StylePipelines,
+    gpu::style_table::Needs,
+    gpu::stream_buffer::StreamBuffer,
+    gpu::surface_binding::SurfaceBinding,
+};
+
+/// Buffers and bindings of one view.
+pub(crate) struct StyleView {
+    pub surface: SurfaceBinding,
+    places: StreamBuffer,
+    /// By layer; none where plain colours say all.
+    layers: Vec<Option<StyledLayer>>,
+    /// Which layer tables are bound.
+    revision: u64,
+}
+
+struct StyledLayer {
+    needs: Needs,
+    arrays: Vec<u32>,
+    group: wgpu::BindGroup,
+}
+
+/// What a frame brings.
+pub(crate) struct StyleFrame<'a> {
+    pub tables: &'a LayerTables,
+    /// Which tables these are.
+    pub revision: u64,
+    pub reference: Reference,
+    pub uniform: SightUniform,
+}
+
+impl StyleView {
+    pub(crate) fn new(device: &wgpu::Device) -> Self {
+        let storage = wgpu::BufferUsages::STORAGE;
+        Self {
+            surface: SurfaceBinding::new(device),
+            places: StreamBuffer::new(device, "globefill places", storage),
+            layers: Vec::new(),
+            revision: 0,
+        }
+    }
+
+    /// Places the patterns for the frame's eye and uploads what changed; returns the bytes.
+    pub(crate) fn prepare(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        pipelines: &StylePipelines,
+        with: &StyleFrame<'_>,
+    ) -> u64 {
+        let placed: Vec<Placed> = with
+            .tables
+            .places
+            .iter()
+            .map(|place: &PatternPlace| place.seen_from(&with.reference))
+            .collect();
+        let bytes = self.surface.write(device, queue, &with.uniform);
+        let contents = bytemuck::cast_slice(&placed);
+        let (uploaded, moved) = self.places.write(device, queue, contents);
+        if moved || self.revision != with.revision || self.layers.is_empty() {
+            self.revision = with.revision;
+            self.bind(device, pipelines, with.tables);
+        }
+        bytes + uploaded
+    }
+
+    fn bind(&mut self, device: &wgpu::Device, pipelines: &StylePipelines, tables: &LayerTables) {
+        let styled = tables.styles.iter().map(|table| {
+            let table = table.as_ref()?;
+            let buffers = [&table.styles, &self.places.buffer];
+            let entries: Vec<_> = (0..)
+                .zip(buffers)
+                .map(|(binding, buffer)| wgpu::BindGroupEntry {
+                    binding,
+                    resource: buffer.as_entire_binding(),
+                })
+                .collect();
+            Some(StyledLayer {
+                needs: table.needs,
+                arrays: table.arrays.clone(),
+                group: device.create_bind_group(&wgpu::BindGroupDescriptor {
+                    label: Some("globefill styles"),
+                    layout: &pipelines.style_layout,
+                    entries: &entries,
+                }),
+            })
+        });
+        self.layers = styled.collect();
+    }
+
+    /// How many draws resolve a layer; none where plain colours do.
+    pub(crate) fn draws_of(&self, layer: usize) -> Option<u32> {
+        let styled = self.layers.get(layer)?.as_ref()?;
+        Some(styled.arrays.len() as u32)
+    }
+
+    /// Draws a layer whose table and sums are bound as group 0.
+    pub(crate) fn resolve(
+        &self,
+        pipelines: &StylePipelines,
+        images: &ImageArrays,
+        pass: &mut wgpu::RenderPass<'_>,
+        layer: usize,
+    ) {
+        let styled = self.layers.get(layer).and_then(Option::as_ref);
+        let (Some(styled), Some(surface)) = (styled, self.surface.group()) else {
+            return;
+        };
+        let Some(pipeline) = pipelines.get(styled.needs) else {
+            return;
+        };
+        pass.set_pipeline(pipeline);
+        pass.set_bind_group(1, &styled.group, &[]);
+        pass.set_bind_group(2, surface, &[]);
+        for &array in &styled.arrays {
+            pass.set_bind_group(3, images.group(array), &[]);
+            pass.draw(0..3, array..array + 1);
+        }
+    }
+}

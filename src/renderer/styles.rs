@@ -1,0 +1,264 @@
+//! How the fills of a renderer look: styles, images, and resolving with patterns.
+
+use glam::DVec2;
+
+use super::{
+    MeshId, Renderer,
+    prepare::{Choice, Selected},
+};
+use crate::{
+    error::{RendererError, StyleError},
+    extents::Extents,
+    fill_mesh::FillMesh,
+    frame::placed::{AnglePlace, MapPlace, PatternPlace},
+    frame::reference::Reference,
+    frame::sight_uniform::SightUniform,
+    gpu::image_arrays::ImageArrays,
+    gpu::style_pipelines::StylePipelines,
+    gpu::style_table::Needs,
+    gpu::style_view::{StyleFrame, StyleView},
+    hatch::Hatch,
+    image::{Image, ImageId},
+    image_fill::{ImageFill, Placement},
+    length::Length,
+    style::{FillStyle, Pattern},
+    view::{Prepared, View},
+};
+
+impl Renderer {
+    /// Sets how a fill looks from the next `prepare` on; `fill` is the index of its region in the
+    /// mesh.
+    ///
+    /// # Errors
+    /// [`RendererError::NoSuchMesh`], [`RendererError::NoSuchFill`], and
+    /// [`RendererError::InvalidStyle`], which names the field; the previous style stays.
+    pub fn set_style(
+        &mut self,
+        mesh: MeshId,
+        fill: u32,
+        style: FillStyle,
+    ) -> Result<(), RendererError> {
+        let invalid = |error| RendererError::InvalidStyle { fill, error };
+        style.check().map_err(invalid)?;
+        let tall = self.tallness(&style).map_err(invalid)?;
+        let resident = self
+            .meshes
+            .get_mut(&mesh)
+            .ok_or(RendererError::NoSuchMesh)?;
+        let fills = resident.styles.len() as u32;
+        let current = resident
+            .styles
+            .get_mut(fill as usize)
+            .ok_or(RendererError::NoSuchFill { fill, fills })?;
+        if *current == style {
+            return Ok(());
+        }
+        if current.pattern != style.pattern {
+            let place = place_of(&resident.mesh, fill, style.pattern.as_ref(), tall);
+            resident.places[fill as usize] = place;
+        }
+        *current = style;
+        self.changed();
+        Ok(())
+    }
+
+    /// Height over width of the image that a style shows; 1 for none.
+    fn tallness(&self, style: &FillStyle) -> Result<f64, StyleError> {
+        let Some(image) = style.pattern.and_then(|pattern| pattern.image()) else {
+            return Ok(1.0);
+        };
+        let slot = self.images.as_ref().and_then(|images| images.slot(image));
+        slot.map_or(Err(StyleError::NoSuchImage), |slot| {
+            Ok(f64::from(slot.tall))
+        })
+    }
+
+    /// Uploads an image for fills to show; see [`Self::insert_images`].
+    ///
+    /// # Errors
+    /// [`RendererError::ImageTooLarge`].
+    pub fn insert_image(
+        &mut self,
+        queue: &wgpu::Queue,
+        image: &Image,
+    ) -> Result<ImageId, RendererError> {
+        let ids = self.insert_images(queue, std::slice::from_ref(image))?;
+        Ok(ids[0])
+    }
+
+    /// Uploads images for fills to show. Those of one size that are inserted together share a texture
+    /// array; a layer of fills is resolved by one draw for each array that its fills show.
+    ///
+    /// Texels of images are decoded from sRGB unless the colour target holds encoded colours itself, as
+    /// `Rgba8Unorm` does.
+    ///
+    /// # Errors
+    /// [`RendererError::ImageTooLarge`] if the device's textures cannot be as large; then none is
+    /// uploaded.
+    pub fn insert_images(
+        &mut self,
+        queue: &wgpu::Queue,
+        images: &[Image],
+    ) -> Result<Vec<ImageId>, RendererError> {
+        let most = self.device.limits().max_texture_dimension_2d;
+        if let Some(large) = images.iter().find(|it| it.width().max(it.height()) > most) {
+            return Err(RendererError::ImageTooLarge {
+                width: large.width(),
+                height: large.height(),
+                most,
+            });
+        }
+        let format = image_format(self.options.color_format);
+        let device = &self.device;
+        let arrays = self.images.get_or_insert_with(|| ImageArrays::new(device));
+        Ok(arrays.insert(device, queue, format, images))
+    }
+
+    /// Forgets an image. Its texture stays for another of the same size.
+    ///
+    /// # Errors
+    /// [`RendererError::NoSuchImage`], and [`RendererError::ImageInUse`] while a style shows it.
+    pub fn remove_image(&mut self, image: ImageId) -> Result<(), RendererError> {
+        let shown = |style: &FillStyle| {
+            style.pattern.and_then(|pattern| pattern.image()) == Some(image)
+        };
+        let mut residents = self.meshes.values();
+        if residents.any(|resident| resident.styles.iter().any(shown)) {
+            return Err(RendererError::ImageInUse);
+        }
+        let removed = self
+            .images
+            .as_mut()
+            .is_some_and(|images| images.remove(image));
+        removed.then_some(()).ok_or(RendererError::NoSuchImage)
+    }
+
+    /// Places patterns for the frame's eye, compiles and uploads what is missing; returns the bytes.
+    pub(super) fn prepare_styles(
+        &mut self,
+        queue: &wgpu::Queue,
+        view: &mut View,
+        prepared: &Prepared,
+        selections: &[Selected],
+        choice: Choice,
+    ) -> Result<u64, RendererError> {
+        let tables = self.layers(choice)?;
+        let needs: Vec<Needs> = tables.styles.iter().flatten().map(|it| it.needs).collect();
+        let Some(Selected { sight, .. }) = selections.first().filter(|_| !needs.is_empty()) else {
+            view.styles = None;
+            return Ok(0);
+        };
+        let elsewhere = |other: &Selected| other.sight.ellipsoid != sight.ellipsoid;
+        if selections.iter().any(elsewhere) {
+            return Err(RendererError::Unsupported(
+                "patterns, strokes and fades need all meshes on one ellipsoid",
+            ));
+        }
+        let device = &self.device;
+        let images = self.images.get_or_insert_with(|| ImageArrays::new(device));
+        let pipelines = self.style_pipelines.get_or_insert_with(|| {
+            let layer_layout = &self.pipelines.resolve_layout;
+            StylePipelines::new(device, self.options, layer_layout, &images.layout)
+        });
+        for needs in needs {
+            pipelines.ensure(device, needs);
+        }
+        let Some(pipelines) = &self.style_pipelines else {
+            return Ok(0);
+        };
+        let frame = &prepared.frame;
+        let reference = Reference::new(sight.ellipsoid, frame.camera.eye_ecef_m);
+        let depth = self.options.depth;
+        let with = StyleFrame {
+            tables: self.layers(choice)?,
+            revision: self.revision,
+            uniform: SightUniform::new(sight, &reference, depth, frame.size_px),
+            reference,
+        };
+        let styles = view
+            .styles
+            .get_or_insert_with(|| StyleView::new(&self.device));
+        Ok(styles.prepare(&self.device, queue, pipelines, &with))
+    }
+
+    /// Binds the depth that patterns are placed by.
+    pub(super) fn bind_surface(&self, view: &mut View, depth: &wgpu::TextureView) {
+        if let (Some(styles), Some(pipelines)) = (&mut view.styles, &self.style_pipelines) {
+            let layout = &pipelines.surface_layout;
+            styles.surface.bind(&self.device, layout, depth);
+        }
+    }
+
+    /// Resolves a layer whose sums are bound, if its styles are more than colours; answers whether.
+    pub(super) fn resolve_styled(
+        &self,
+        view: &View,
+        pass: &mut wgpu::RenderPass<'_>,
+        layer: usize,
+    ) -> bool {
+        let (Some(styles), Some(pipelines), Some(images)) =
+            (&view.styles, &self.style_pipelines, &self.images)
+        else {
+            return false;
+        };
+        let styled = styles.draws_of(layer).is_some();
+        styles.resolve(pipelines, images, pass, layer);
+        styled
+    }
+}
+
+/// The format of textures whose texels are what the colour target takes.
+fn image_format(target: wgpu::TextureFormat) -> wgpu::TextureFormat {
+    match target {
+        // These hold encoded colours themselves.
+        wgpu::TextureFormat::Rgba8Unorm
+        | wgpu::TextureFormat::Bgra8Unorm
+        | wgpu::TextureFormat::Rgb10a2Unorm => wgpu::TextureFormat::Rgba8Unorm,
+        _ => wgpu::TextureFormat::Rgba8UnormSrgb,
+    }
+}
+
+/// Where the pattern of a fill lies; `tall` is the height of its image over its width.
+fn place_of(
+    mesh: &FillMesh,
+    fill: u32,
+    pattern: Option<&Pattern>,
+    tall: f64,
+) -> Option<PatternPlace> {
+    match pattern? {
+        Pattern::Hatch(hatch) => Some(PatternPlace::Map(hatch_place(mesh, fill, hatch, tall))),
+        Pattern::Image(image) => Some(image_place(mesh, fill, image)),
+    }
+}
+
+fn hatch_place(mesh: &FillMesh, fill: u32, hatch: &Hatch, tall: f64) -> MapPlace {
+    let middle = || mesh.centroid(fill);
+    let anchor = hatch.anchor.or_else(middle).unwrap_or_default();
+    let unit_m = match hatch.spacing {
+        Length::Metres(metres) => f64::from(metres),
+        Length::Pixels(_) => 1.0,
+    };
+    let angle_rad = f64::from(hatch.angle_rad);
+    MapPlace::repeating(&mesh.ellipsoid, anchor, angle_rad, unit_m * DVec2::new(1.0, tall))
+}
+
+fn image_place(mesh: &FillMesh, fill: u32, image: &ImageFill) -> PatternPlace {
+    let ellipsoid = &mesh.ellipsoid;
+    let rotation_rad = f64::from(image.rotation_rad);
+    let repeats = DVec2::from_array(image.repeats.map(f64::from));
+    let angles = |extents: Option<Extents>, spherical| {
+        let extents = extents.or(Some(Extents::GLOBE));
+        let extents = extents.unwrap_or(Extents::GLOBE);
+        let place = AnglePlace::new(ellipsoid, extents, spherical, rotation_rad, repeats);
+        PatternPlace::Angles(place)
+    };
+    match image.placement {
+        Placement::Geodetic(extents) => angles(extents, false),
+        Placement::Spherical(extents) => angles(extents, true),
+        Placement::Local { center, size_m } => {
+            let size_m = DVec2::from_array(size_m.map(f64::from)) / repeats;
+            let place = MapPlace::picture(ellipsoid, center, rotation_rad, size_m);
+            PatternPlace::Map(place)
+        }
+    }
+}
