@@ -1,6 +1,11 @@
 //! Typed errors.
 
-use crate::repair::Place;
+use std::path::PathBuf;
+
+use crate::{
+    image::{MOST_PER_SIDE, MOST_TEXELS},
+    repair::Place,
+};
 
 /// Why a region could not be meshed.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -163,6 +168,53 @@ pub enum StyleError {
     /// The identifier was not given out by this renderer, or its image was removed.
     #[error("no such image in this renderer")]
     NoSuchImage,
+}
+
+/// Why an image cannot be.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ImageError {
+    /// The file cannot be read.
+    #[error("cannot read {}: {message}", path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        message: String,
+    },
+    /// The bytes are neither a PNG nor a JPEG, or one that is broken or cut short. What the decoder
+    /// says: one line of at most 200 characters.
+    #[error("not a PNG or JPEG, or a corrupt one: {0}")]
+    Undecodable(String),
+    /// The image has no texels.
+    #[error("an image of {width} × {height} texels shows nothing")]
+    Empty {
+        /// Texels across.
+        width: u32,
+        /// Texels down.
+        height: u32,
+    },
+    /// A side is longer than [`MOST_PER_SIDE`], or the texels are more than [`MOST_TEXELS`].
+    #[error(
+        "{width} × {height} texels are too many: {MOST_PER_SIDE} a side and {MOST_TEXELS} in all are \
+         allowed"
+    )]
+    TooLarge {
+        /// Texels across.
+        width: u32,
+        /// Texels down.
+        height: u32,
+    },
+    /// The slice does not hold four bytes for each texel.
+    #[error("{width} × {height} texels are not {bytes} bytes long")]
+    WrongLength {
+        /// Texels across.
+        width: u32,
+        /// Texels down.
+        height: u32,
+        /// Bytes given.
+        bytes: usize,
+    },
 }
 
 /// Why a renderer could not be made or a frame not prepared.
