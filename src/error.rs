@@ -256,7 +256,9 @@ pub enum RendererError {
     #[error("a style shows this image")]
     ImageInUse,
     /// The device's textures cannot be as large as the image.
-    #[error("an image of {width}x{height} texels; the device's textures have at most {most} a side")]
+    #[error(
+        "an image of {width}x{height} texels; the device's textures have at most {most} a side"
+    )]
     ImageTooLarge {
         /// Its width, texels.
         width: u32,

@@ -84,7 +84,6 @@ impl Image {
     }
 
     /// All sizes, the largest first, down to 1 × 1; each side is half of the one before, rounded down.
-    #[cfg_attr(not(test), expect(dead_code, reason = "uploaded by the renderer"))]
     pub(crate) fn levels(&self) -> &[Level] {
         &self.levels
     }

@@ -141,8 +141,9 @@ mod tests {
     use std::mem::{offset_of, size_of};
 
     use crate::{
-        frame::sensor_record::SensorRecord, frame::sight_uniform::SightUniform,
-        gpu::gpu_mesh::ArcRecord, gpu::layer_tables::LayerHead, view::FrameUniform,
+        frame::placed::Placed, frame::sensor_record::SensorRecord,
+        frame::sight_uniform::SightUniform, gpu::gpu_mesh::ArcRecord, gpu::layer_tables::LayerHead,
+        gpu::style_table::StyleRecord, view::FrameUniform,
     };
 
     /// Members of a WGSL struct with their offsets, bytes, and the size of the whole.
@@ -229,6 +230,44 @@ mod tests {
         );
         assert_eq!(members, expected);
         assert_eq!(size, size_of::<SightUniform>());
+    }
+
+    #[test]
+    fn styles_and_places_have_the_layout_of_the_shader() {
+        let source = super::resolve_styled(1);
+        let (members, size) = layout_of(&source, "Style");
+        let expected = offsets!(
+            StyleRecord: color, highlight, ink, stroke, pattern, hatch, fade, fade_sine,
+            stroke_size, dash_share, align, wrap, unused
+        );
+        assert_eq!(members, expected);
+        assert_eq!(size, size_of::<StyleRecord>());
+        let (members, size) = layout_of(&source, "Placed");
+        assert_eq!(members, offsets!(Placed: u, v, fall, phase));
+        assert_eq!(size, size_of::<Placed>());
+    }
+
+    #[test]
+    fn styles_need_what_the_shader_says() {
+        use crate::gpu::style_table as table;
+        let source = super::resolve_styled(1);
+        let needs = [
+            ("LINES", table::LINES),
+            ("ACROSS", table::ACROSS),
+            ("DOTS", table::DOTS),
+            ("CHECKER", table::CHECKER),
+            ("TILES", table::TILES),
+            ("CLAMPED", table::CLAMPED),
+            ("REPEATED", table::REPEATED),
+            ("ANGLES", table::ANGLES),
+            ("FADES", table::FADES),
+            ("STROKES", table::STROKES),
+            ("SMOOTH", table::SMOOTH),
+        ];
+        for (name, bit) in needs {
+            let expected = format!("const NEEDS_{name}: u32 = {bit}u;");
+            assert!(source.contains(&expected), "{expected}");
+        }
     }
 
     #[test]

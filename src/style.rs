@@ -1,7 +1,12 @@
 //! How a fill looks.
 
 use crate::{
-    error::StyleError, hatch::Hatch, image_fill::ImageFill, length::Length, stroke::Stroke,
+    error::StyleError,
+    hatch::{Hatch, HatchKind},
+    image::ImageId,
+    image_fill::ImageFill,
+    length::Length,
+    stroke::Stroke,
 };
 
 /// How a fill looks: from below a colour, a pattern on it, a highlight, and a stroke along its boundary.

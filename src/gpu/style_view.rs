@@ -6,9 +6,9 @@ use crate::{
     frame::sight_uniform::SightUniform,
     gpu::image_arrays::ImageArrays,
     gpu::layer_tables::LayerTables,
+    gpu::stream_buffer::StreamBuffer,
     gpu::style_pipelines::StylePipelines,
     gpu::style_table::Needs,
-    gpu::stream_buffer::StreamBuffer,
     gpu::surface_binding::SurfaceBinding,
 };
 

@@ -119,9 +119,8 @@ impl Renderer {
     /// # Errors
     /// [`RendererError::NoSuchImage`], and [`RendererError::ImageInUse`] while a style shows it.
     pub fn remove_image(&mut self, image: ImageId) -> Result<(), RendererError> {
-        let shown = |style: &FillStyle| {
-            style.pattern.and_then(|pattern| pattern.image()) == Some(image)
-        };
+        let shown =
+            |style: &FillStyle| style.pattern.and_then(|pattern| pattern.image()) == Some(image);
         let mut residents = self.meshes.values();
         if residents.any(|resident| resident.styles.iter().any(shown)) {
             return Err(RendererError::ImageInUse);
@@ -239,7 +238,12 @@ fn hatch_place(mesh: &FillMesh, fill: u32, hatch: &Hatch, tall: f64) -> MapPlace
         Length::Pixels(_) => 1.0,
     };
     let angle_rad = f64::from(hatch.angle_rad);
-    MapPlace::repeating(&mesh.ellipsoid, anchor, angle_rad, unit_m * DVec2::new(1.0, tall))
+    MapPlace::repeating(
+        &mesh.ellipsoid,
+        anchor,
+        angle_rad,
+        unit_m * DVec2::new(1.0, tall),
+    )
 }
 
 fn image_place(mesh: &FillMesh, fill: u32, image: &ImageFill) -> PatternPlace {
