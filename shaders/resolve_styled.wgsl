@@ -66,17 +66,18 @@ fn paint_of(style: u32, seen: Seen) -> vec4<f32> {
 
 fn styled_at(pixel: vec2<u32>, sample: u32, array: u32) -> vec4<f32> {
     let fill = fill_at(vec2<i32>(pixel), sample);
-    let depth = depth_at(pixel, sample);
-    if fill == NONE || is_sky(depth) {
-        discard;
+    let style = max(fill, 1u) - 1u;
+    var color = vec4<f32>(0.0);
+    // Not an `if`: software adapters walk through both sides of those, but leave loops.
+    var drawn = fill != NONE && styles[style].pattern.w == array;
+    while drawn {
+        let depth = depth_at(pixel, sample);
+        let seen = seen_at(vec2<f32>(pixel) + sample_px(sample), depth);
+        color = paint_of(style, seen) * opacity_of(style, seen);
+        color.w *= styles[style].fade_sine.z;
+        drawn = false;
     }
-    let style = fill - 1u;
-    if styles[style].pattern.w != array {
-        discard;
-    }
-    let seen = seen_at(vec2<f32>(pixel) + sample_px(sample), depth);
-    let color = paint_of(style, seen) * opacity_of(style, seen);
-    return vec4<f32>(color.xyz, color.w * styles[style].fade_sine.z);
+    return color;
 }
 
 @fragment
