@@ -50,6 +50,7 @@ fn contradictory_styles() {
     workplace.write("i.png", "");
     let image = "--style=image=i.png";
     for (arguments, option) in [
+        (vec!["--ignore-properties"], "--ignore-properties"),
         (vec!["--spacing", "12px"], "--spacing"),
         (vec!["--pattern-color", "red", image], "--pattern-color"),
         (vec!["--share", "0.5", "--style", "checker"], "--share"),

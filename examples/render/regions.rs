@@ -12,6 +12,9 @@ use crate::{
 
 /// The regions and their looks, in input order.
 pub fn read(arguments: &Arguments) -> Result<(Vec<Region>, Vec<Look>), String> {
+    if arguments.regions.is_none() && arguments.style.ignore_properties {
+        return Err("--ignore-properties needs --regions".into());
+    }
     let styled_by_properties = arguments.regions.is_some() && !arguments.style.ignore_properties;
     let look = arguments.style.look(styled_by_properties)?;
     let (mut regions, looks) = match &arguments.regions {

@@ -32,7 +32,7 @@ pub struct StyleArguments {
     /// How fills meet what is below: over it, or added to it like light
     #[arg(long, value_enum, default_value = "alpha")]
     pub blend: BlendName,
-    /// Smooth the edges of fills at every sample, whatever --msaa
+    /// Smooth the edges of fills
     #[arg(long)]
     pub smooth_edges: bool,
     /// Draw features of --regions all alike, whatever their properties (fill, fill-opacity, stroke,
@@ -277,49 +277,53 @@ impl StyleArguments {
 
     /// Complains about an option that the style does not use.
     fn check_use(&self) -> Result<(), String> {
-        let has_share = self.style.has_share();
-        let repeats = matches!(self.style, Overlay::Hatch(_) | Overlay::Pattern(_));
-        let lies = matches!(self.style, Overlay::Image(_));
-        let strokes = self.has_stroke();
-        let repeating = "--style hatch, cross, dots, checker or pattern=FILE";
-        let sharing = "--style hatch, cross or dots";
-        let (image, stroke) = ("--style image=FILE", "--stroke or --style outline");
-        let uses = [
-            (
-                "--pattern-color",
-                self.pattern_color.is_some(),
-                repeats,
-                repeating,
-            ),
-            ("--spacing", self.spacing.is_some(), repeats, repeating),
-            ("--share", self.share.is_some(), has_share, sharing),
-            ("--angle", self.angle.is_some(), repeats, repeating),
-            ("--anchor", self.anchor.is_some(), repeats, repeating),
-            ("--mapping", self.mapping.is_some(), lies, image),
-            ("--extents", self.extents.is_some(), lies, image),
-            ("--center", self.center.is_some(), lies, image),
-            ("--image-size", self.image_size.is_some(), lies, image),
-            ("--wrap", self.wrap.is_some(), lies, image),
-            ("--rotation", self.rotation.is_some(), lies, image),
-            ("--repeats", self.repeats.is_some(), lies, image),
-            ("--image-opacity", self.image_opacity.is_some(), lies, image),
-            (
-                "--stroke-width",
-                self.stroke_width.is_some(),
-                strokes,
-                stroke,
-            ),
-            (
-                "--stroke-align",
-                self.stroke_align.is_some(),
-                strokes,
-                stroke,
-            ),
-            ("--dash", self.dash.is_some(), strokes, stroke),
+        let repeating = [
+            ("--pattern-color", self.pattern_color.is_some()),
+            ("--spacing", self.spacing.is_some()),
+            ("--angle", self.angle.is_some()),
+            ("--anchor", self.anchor.is_some()),
         ];
-        match uses.iter().find(|(_, given, used, _)| *given && !used) {
-            Some((option, _, _, needed)) => Err(format!("{option} needs {needed}")),
-            None => Ok(()),
-        }
+        let sharing = [("--share", self.share.is_some())];
+        let placed = [
+            ("--mapping", self.mapping.is_some()),
+            ("--extents", self.extents.is_some()),
+            ("--center", self.center.is_some()),
+            ("--image-size", self.image_size.is_some()),
+            ("--wrap", self.wrap.is_some()),
+            ("--rotation", self.rotation.is_some()),
+            ("--repeats", self.repeats.is_some()),
+            ("--image-opacity", self.image_opacity.is_some()),
+        ];
+        let stroked = [
+            ("--stroke-width", self.stroke_width.is_some()),
+            ("--stroke-align", self.stroke_align.is_some()),
+            ("--dash", self.dash.is_some()),
+        ];
+        let repeats = matches!(self.style, Overlay::Hatch(_) | Overlay::Pattern(_));
+        let is_placed = matches!(self.style, Overlay::Image(_));
+        check_group(
+            repeats,
+            "--style hatch, cross, dots, checker or pattern=FILE",
+            &repeating,
+        )?;
+        check_group(
+            self.style.has_share(),
+            "--style hatch, cross or dots",
+            &sharing,
+        )?;
+        check_group(is_placed, "--style image=FILE", &placed)?;
+        check_group(self.has_stroke(), "--stroke or --style outline", &stroked)
     }
 }
+
+/// Complains about the first option that is given though nothing uses it.
+fn check_group(is_used: bool, needed: &str, options: &[(&str, bool)]) -> Result<(), String> {
+    match options.iter().find(|(_, is_given)| *is_given && !is_used) {
+        Some((option, _)) => Err(format!("{option} needs {needed}")),
+        None => Ok(()),
+    }
+}
+
+#[cfg(test)]
+#[path = "style_args_tests.rs"]
+mod tests;
