@@ -1,6 +1,6 @@
 //! Regions from GeoJSON text (RFC 7946).
 
-use geojson::{Feature, GeoJson, Geometry, GeometryValue, JsonObject, Position, feature::Id};
+use geojson::{Feature, GeoJson, Geometry, GeometryValue, Position, feature::Id};
 
 use crate::{
     geodetic::LonLat,
@@ -10,6 +10,8 @@ use crate::{
 
 mod location;
 
+/// Properties and their values, as `serde_json` has them.
+pub use geojson::{JsonObject, JsonValue};
 pub use location::Location;
 
 /// The members of a feature's properties that may hold its name, in the order they are tried: the
@@ -26,6 +28,9 @@ pub struct NamedRegion {
     pub id: Option<String>,
     /// The first of the properties `name`, `NAME` and `ADMIN` that is a text.
     pub name: Option<String>,
+    /// All of the feature's properties; empty where they are null or missing, and for a bare geometry.
+    /// What they mean, styles for one, is the host's to say.
+    pub properties: JsonObject,
     /// The feature's polygons: edges [`EdgeKind::Straight`], as RFC 7946 §3.1.1 has it, and inside
     /// [`Inside::Smaller`], since winding cannot be trusted (§3.1.6). Altitudes are left out.
     pub region: Region,
@@ -124,12 +129,14 @@ fn named_region(index: usize, feature: Feature) -> Result<NamedRegion, GeoJsonEr
     let geometry = feature
         .geometry
         .ok_or(GeoJsonError::NoGeometry { feature: index })?;
+    let properties = feature.properties.unwrap_or_default();
     Ok(NamedRegion {
         id: feature.id.map(|id| match id {
             Id::String(text) => text,
             Id::Number(number) => number.to_string(),
         }),
-        name: feature.properties.as_ref().and_then(name),
+        name: name(&properties),
+        properties,
         region: region(index, geometry)?,
     })
 }

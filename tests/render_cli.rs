@@ -2,7 +2,7 @@
 
 mod render_example;
 
-use render_example::Workplace;
+use render_example::{Workplace, refused};
 
 /// Runs `render` on a GeoJSON text and returns what it says.
 fn complaint_about(name: &str, geojson: &str) -> String {
@@ -11,36 +11,6 @@ fn complaint_about(name: &str, geojson: &str) -> String {
     let line = refused(&workplace, &["--regions", "bad.geojson"]);
     assert!(line.starts_with("error: bad.geojson: "), "{line}");
     line
-}
-
-/// Runs `render` with every output named, checks that it fails as promised, and returns its error.
-fn refused(workplace: &Workplace, arguments: &[&str]) -> String {
-    let before = workplace.files();
-    let outputs = [
-        "--out",
-        "o.png",
-        "--mask",
-        "m.png",
-        "--ids",
-        "i.png",
-        "--positions",
-        "p.npy",
-        "--stats",
-        "s.json",
-    ];
-    let run = workplace.render(&[arguments, &outputs].concat());
-    let said = String::from_utf8_lossy(&run.stderr).into_owned();
-    assert_eq!(run.status.code(), Some(1), "{arguments:?}: {said}");
-    assert_eq!(said.lines().count(), 1, "{arguments:?}: {said}");
-    assert!(said.starts_with("error: "), "{said}");
-    assert!(!said.contains("panicked"), "{said}");
-    assert!(run.stdout.is_empty());
-    assert_eq!(
-        workplace.files(),
-        before,
-        "{arguments:?} left something behind"
-    );
-    said
 }
 
 fn polygon(rings: &str) -> String {

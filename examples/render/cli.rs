@@ -6,10 +6,13 @@ use clap::{Parser, ValueEnum};
 use glam::UVec2;
 use globefill::{CountTechnique, DepthConvention, EdgeKind, Inside};
 
-use crate::host::{
-    camera::Viewpoint,
-    cli::{parse_finite, parse_fov, parse_size},
-    output::DEFAULT_DIRECTORY,
+use crate::{
+    host::{
+        camera::Viewpoint,
+        cli::{parse_finite, parse_fov, parse_size},
+        output::DEFAULT_DIRECTORY,
+    },
+    style_args::StyleArguments,
 };
 
 /// Fills regions on a globe and writes pictures and measurements of it.
@@ -54,7 +57,8 @@ pub struct Arguments {
     /// What was drawn and what it cost, JSON
     #[arg(long, value_name = "JSON")]
     pub stats: Option<PathBuf>,
-    /// Frames to time for --stats, with fills and without in turn
+    /// Frames to time for --stats, with fills and without in turn; with styled fills those of plain
+    /// colours too
     #[arg(long, value_name = "N", default_value_t = 10,
         value_parser = clap::value_parser!(u32).range(1..=10_000))]
     pub frames: u32,
@@ -81,6 +85,8 @@ pub struct Arguments {
     /// Samples a pixel of the picture: 1 or 4
     #[arg(long, value_name = "N", default_value = "1", value_parser = parse_samples)]
     pub msaa: u32,
+    #[command(flatten)]
+    pub style: StyleArguments,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

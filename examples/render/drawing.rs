@@ -1,7 +1,10 @@
 //! One way of drawing the fills, from the ground to the finished frame.
 
+use std::path::Path;
+
 use globefill::{
-    FillMesh, FillStyle, Frame, FrameStats, MeshId, Renderer, RendererOptions, View, wgpu,
+    CountTechnique, FillMesh, FillStyle, Frame, FrameStats, ImageId, MeshId, Renderer,
+    RendererOptions, View, wgpu,
 };
 
 use crate::{
@@ -24,6 +27,13 @@ pub struct Drawing {
     mesh: MeshId,
 }
 
+/// How fills are drawn, whatever their styles.
+#[derive(Clone, Copy, Debug)]
+pub struct Technique {
+    pub count: CountTechnique,
+    pub smooth_edges: bool,
+}
+
 /// What lies under the fills.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Background {
@@ -40,14 +50,18 @@ impl Drawing {
         targets: Targets,
         background: Background,
         mesh: FillMesh,
-        count: globefill::CountTechnique,
+        technique: Technique,
     ) -> Result<Self, String> {
+        // TEMPORARY, until `RendererOptions` has `smooth_edges: technique.smooth_edges`.
+        if technique.smooth_edges {
+            return Err("--smooth-edges cannot be drawn yet".into());
+        }
         let options = RendererOptions {
             color_format: targets.format.color,
             depth_format: targets.format.depth,
             depth: targets.format.convention,
             sample_count: targets.format.sample_count,
-            count,
+            count: technique.count,
         };
         let mut renderer =
             Renderer::new(&gpu.device, options).map_err(|error| error.to_string())?;
@@ -60,6 +74,15 @@ impl Drawing {
             view: View::default(),
             mesh,
         })
+    }
+
+    /// Gives the renderer an image.
+    pub fn insert_image(&mut self, _gpu: &Gpu, path: &Path) -> Result<ImageId, String> {
+        // TEMPORARY, until images can be opened and inserted:
+        // let in_file = |error: &dyn std::error::Error| format!("{}: {error}", path.display());
+        // let image = globefill::Image::open(path).map_err(|error| in_file(&error))?;
+        // self.renderer.insert_image(&gpu.queue, &image).map_err(|error| in_file(&error))
+        Err(format!("{}: images cannot be drawn yet", path.display()))
     }
 
     pub fn set_style(&mut self, fill: u32, style: FillStyle) -> Result<(), String> {

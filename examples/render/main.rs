@@ -2,14 +2,20 @@
 //! which it is measured. `--help` tells the options.
 
 mod cli;
+mod css_color;
 mod drawing;
 #[path = "../host/mod.rs"]
 mod host;
 mod invocations;
 mod measure;
+mod notation;
+mod overlay;
 mod pictures;
 mod regions;
 mod session;
+mod simplestyle;
+mod style;
+mod style_args;
 
 use std::process::ExitCode;
 

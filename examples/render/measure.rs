@@ -15,11 +15,12 @@ use crate::{
 };
 
 /// An opaque colour that stands for a fill: its index counted from 1, in red and green.
-pub fn identity_style(fill: u32) -> FillStyle {
+pub fn identity_style(fill: u32, z_index: i32) -> FillStyle {
     let [low, high, ..] = (fill + 1).to_le_bytes();
     let channel = |byte: u8| f32::from(byte) / 255.0;
     FillStyle {
         color: [channel(low), channel(high), 0.0, 1.0],
+        z_index,
         ..Default::default()
     }
 }
@@ -55,39 +56,57 @@ pub fn positions(
 pub struct Times {
     /// With fills: everything from `prepare` until the GPU is idle.
     pub frame_ms: f64,
+    /// With fills of plain colours; `None` where all of them are.
+    pub solid_ms: Option<f64>,
     /// The ground alone.
     pub globe_ms: f64,
     /// Of the last frame with fills.
     pub stats: FrameStats,
 }
 
-/// Draws `frames` frames with fills and as many without, in turn.
+impl Times {
+    /// What styles cost beyond plain colours, in times of the ground alone.
+    pub fn style_extra_globes(&self) -> Option<f64> {
+        self.solid_ms
+            .map(|solid_ms| (self.frame_ms - solid_ms) / self.globe_ms)
+    }
+}
+
+/// Draws `frames` frames with fills, as many without and, if there is a `solid` drawing, as many of it,
+/// in turn: what slows the machine for a while slows them alike.
 pub fn times(
     gpu: &Gpu,
     ground: &Ground,
     drawing: &mut Drawing,
+    mut solid: Option<&mut Drawing>,
     frame: &Frame,
     frames: u32,
     mut progress: impl FnMut(),
 ) -> Result<Times, String> {
-    let mut with_fills = Vec::new();
-    let mut without = Vec::new();
+    let [mut with_fills, mut plain, mut without] = [const { Vec::new() }; 3];
     let mut stats = FrameStats::default();
     for index in 0..WARM_UP + frames {
         let start = Instant::now();
         drawing.draw_ground(gpu, ground)?;
         let ground_ms = milliseconds_since(start);
         let start = Instant::now();
+        if let Some(solid) = &mut solid {
+            solid.draw(gpu, ground, frame, None)?;
+        }
+        let solid_ms = milliseconds_since(start);
+        let start = Instant::now();
         stats = drawing.draw(gpu, ground, frame, None)?;
         let frame_ms = milliseconds_since(start);
         if index >= WARM_UP {
             without.push(ground_ms);
+            plain.push(solid_ms);
             with_fills.push(frame_ms);
         }
         progress();
     }
     Ok(Times {
         frame_ms: median(with_fills),
+        solid_ms: solid.map(|_| median(plain)),
         globe_ms: median(without),
         stats,
     })

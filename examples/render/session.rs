@@ -7,7 +7,7 @@ use serde_json::json;
 
 use crate::{
     cli::Arguments,
-    drawing::{Background, Drawing},
+    drawing::{Background, Drawing, Technique},
     host::{
         camera::{Eye, Shot},
         elevation::Elevation,
@@ -19,6 +19,7 @@ use crate::{
         targets::Targets,
     },
     measure, pictures, regions,
+    style::{self, Images, Look},
 };
 
 /// Runs the program.
@@ -33,7 +34,8 @@ pub fn run(arguments: &Arguments, progress: &Progress) -> Result<(), String> {
         .transpose()?;
     progress.step("meshing the regions");
     let start = Instant::now();
-    let regions = regions::read(arguments)?;
+    let (regions, looks) = regions::read(arguments)?;
+    let image_files = style::files(&looks)?;
     let mesh = FillMesh::build(
         &regions,
         &MeshOptions {
@@ -66,6 +68,8 @@ pub fn run(arguments: &Arguments, progress: &Progress) -> Result<(), String> {
         eye,
         ground,
         mesh,
+        looks,
+        image_files,
         build_ms,
     };
     let mut outputs = Outputs::default();
@@ -103,6 +107,10 @@ struct Work<'a> {
     eye: Eye,
     ground: Ground,
     mesh: FillMesh,
+    /// Of every fill.
+    looks: Vec<Look>,
+    /// What the looks show.
+    image_files: Vec<PathBuf>,
     build_ms: f64,
 }
 
@@ -117,12 +125,13 @@ impl Work<'_> {
         }
     }
 
+    /// Fills still have the default style.
     fn drawing(
         &self,
         color: wgpu::TextureFormat,
         sample_count: u32,
         background: Background,
-        style: impl Fn(u32) -> FillStyle,
+        smooth_edges: bool,
     ) -> Result<Drawing, String> {
         let format = TargetFormat {
             color,
@@ -136,18 +145,62 @@ impl Work<'_> {
             format,
             self.eye.clear_depth(),
         )?;
-        let mut drawing = Drawing::new(
+        Drawing::new(
             &self.gpu,
             &self.ground,
             targets,
             background,
             self.mesh.clone(),
-            self.arguments.count.into(),
-        )?;
-        for fill in 0..self.mesh.fills.len() as u32 {
-            drawing.set_style(fill, style(fill))?;
+            Technique {
+                count: self.arguments.count.into(),
+                smooth_edges,
+            },
+        )
+    }
+
+    /// What the picture is drawn with; `smooth_edges` is part of the style.
+    fn picture_drawing(&self, smooth_edges: bool) -> Result<Drawing, String> {
+        self.drawing(
+            wgpu::TextureFormat::Rgba8UnormSrgb,
+            self.arguments.msaa,
+            Background::Ground,
+            smooth_edges,
+        )
+    }
+
+    fn set_styles(
+        &self,
+        drawing: &mut Drawing,
+        style: impl Fn(&Look, u32) -> FillStyle,
+    ) -> Result<(), String> {
+        (0..)
+            .zip(&self.looks)
+            .try_for_each(|(fill, look)| drawing.set_style(fill, style(look, fill)))
+    }
+
+    fn styled_drawing(&self, colors: &[[f32; 4]]) -> Result<Drawing, String> {
+        let mut drawing = self.picture_drawing(self.arguments.style.smooth_edges)?;
+        let mut images = Images::new();
+        for path in &self.image_files {
+            images.insert(path.clone(), drawing.insert_image(&self.gpu, path)?);
         }
+        self.set_styles(&mut drawing, |look, fill| {
+            look.style(colors[fill as usize], &images)
+        })?;
         Ok(drawing)
+    }
+
+    /// The picture in plain colours, if it is not that already. A drawing of its own: styles that change
+    /// from frame to frame would cost time themselves.
+    fn solid_drawing(&self, colors: &[[f32; 4]]) -> Result<Option<Drawing>, String> {
+        if !self.arguments.style.smooth_edges && self.looks.iter().all(Look::is_solid) {
+            return Ok(None);
+        }
+        let mut drawing = self.picture_drawing(false)?;
+        self.set_styles(&mut drawing, |look, fill| {
+            look.solid_style(colors[fill as usize])
+        })?;
+        Ok(Some(drawing))
     }
 
     /// The picture that people look at, and the times it takes.
@@ -157,15 +210,7 @@ impl Work<'_> {
         }
         self.progress.step("drawing the picture");
         let colors = palette::colors(&self.mesh);
-        let mut drawing = self.drawing(
-            wgpu::TextureFormat::Rgba8UnormSrgb,
-            self.arguments.msaa,
-            Background::Ground,
-            |fill| FillStyle {
-                color: colors[fill as usize],
-                ..Default::default()
-            },
-        )?;
+        let mut drawing = self.styled_drawing(&colors)?;
         let frame = self.frame();
         let first = drawing.draw(&self.gpu, &self.ground, &frame, None)?;
         if let Some(path) = &self.arguments.out {
@@ -175,12 +220,14 @@ impl Work<'_> {
         let Some(path) = &self.arguments.stats else {
             return Ok(());
         };
+        let mut solid = self.solid_drawing(&colors)?;
         self.progress.step("timing frames");
         self.progress.count(self.arguments.frames);
         let times = measure::times(
             &self.gpu,
             &self.ground,
             &mut drawing,
+            solid.as_mut(),
             &frame,
             self.arguments.frames,
             || self.progress.advance(),
@@ -201,6 +248,8 @@ impl Work<'_> {
             "vertex_invocations": invocations.as_ref().map(|counted| counted.vertex),
             "fragment_invocations": invocations.as_ref().map(|counted| counted.fragment),
             "frame_ms": times.frame_ms,
+            "solid_ms": times.solid_ms,
+            "style_extra_globes": times.style_extra_globes(),
             "globe_ms": times.globe_ms,
             "frames": self.arguments.frames,
             "repairs": self.mesh.repairs.len(),
@@ -211,7 +260,7 @@ impl Work<'_> {
         Ok(())
     }
 
-    /// Mask, identities and positions: one sample a pixel, no blending.
+    /// Mask, identities and positions: one sample a pixel, no blending; of the looks only the order.
     fn draw_measurements(&self, outputs: &mut Outputs) -> Result<(), String> {
         let Arguments {
             mask,
@@ -228,8 +277,11 @@ impl Work<'_> {
             wgpu::TextureFormat::Rgba8Unorm,
             1,
             Background::Nothing,
-            measure::identity_style,
+            false,
         )?;
+        self.set_styles(&mut drawing, |look, fill| {
+            measure::identity_style(fill, look.z_index)
+        })?;
         drawing.draw(&self.gpu, &self.ground, &self.frame(), None)?;
         let identities = measure::identities(&self.gpu, &drawing)?;
         if let Some(path) = mask {

@@ -93,6 +93,32 @@ fn names_and_ids_are_kept() {
 }
 
 #[test]
+fn properties_are_kept_as_they_are() {
+    let square = polygon(SQUARE);
+    let text = collection(&[
+        format!(
+            r##"{{"type":"Feature","geometry":{square},"properties":
+                {{"name":"A","fill":"#f00","fill-opacity":0.25,"tags":[1,null,{{"a":true}}]}}}}"##
+        ),
+        feature(&square),
+        format!(r#"{{"type":"Feature","geometry":{square}}}"#),
+    ]);
+    let regions = regions_from_geojson(&text).unwrap();
+    let properties = &regions[0].properties;
+    assert_eq!(properties.len(), 4);
+    assert_eq!(properties["name"], JsonValue::from("A"));
+    assert_eq!(properties["fill"], JsonValue::from("#f00"));
+    assert_eq!(properties["fill-opacity"], JsonValue::from(0.25));
+    assert_eq!(properties["tags"][2]["a"], JsonValue::from(true));
+    assert!(regions[1].properties.is_empty() && regions[2].properties.is_empty());
+    assert!(
+        regions_from_geojson(&square).unwrap()[0]
+            .properties
+            .is_empty()
+    );
+}
+
+#[test]
 fn altitudes_are_left_out() {
     let text = polygon("[[0,0,5],[10,0,5,1],[10,10,5],[0,0,5]]");
     let regions = regions_from_geojson(&text).unwrap();

@@ -68,6 +68,37 @@ impl Drop for Workplace {
     }
 }
 
+/// Runs `render` with every output named, checks that it fails as promised, and returns its error.
+#[allow(dead_code)]
+pub fn refused(workplace: &Workplace, arguments: &[&str]) -> String {
+    let before = workplace.files();
+    let outputs = [
+        "--out",
+        "o.png",
+        "--mask",
+        "m.png",
+        "--ids",
+        "i.png",
+        "--positions",
+        "p.npy",
+        "--stats",
+        "s.json",
+    ];
+    let run = workplace.render(&[arguments, &outputs].concat());
+    let said = String::from_utf8_lossy(&run.stderr).into_owned();
+    assert_eq!(run.status.code(), Some(1), "{arguments:?}: {said}");
+    assert_eq!(said.lines().count(), 1, "{arguments:?}: {said}");
+    assert!(said.starts_with("error: "), "{said}");
+    assert!(!said.contains("panicked"), "{said}");
+    assert!(run.stdout.is_empty());
+    assert_eq!(
+        workplace.files(),
+        before,
+        "{arguments:?} left something behind"
+    );
+    said
+}
+
 /// `cargo test` builds the examples beside the tests' directory.
 fn path_of(name: &str) -> PathBuf {
     let test = std::env::current_exe().expect("this test's own path");
