@@ -77,12 +77,12 @@ impl Drawing {
     }
 
     /// Gives the renderer an image.
-    pub fn insert_image(&mut self, _gpu: &Gpu, path: &Path) -> Result<ImageId, String> {
-        // TEMPORARY, until images can be opened and inserted:
-        // let in_file = |error: &dyn std::error::Error| format!("{}: {error}", path.display());
-        // let image = globefill::Image::open(path).map_err(|error| in_file(&error))?;
-        // self.renderer.insert_image(&gpu.queue, &image).map_err(|error| in_file(&error))
-        Err(format!("{}: images cannot be drawn yet", path.display()))
+    pub fn insert_image(&mut self, gpu: &Gpu, path: &Path) -> Result<ImageId, String> {
+        let in_file = |error: &dyn std::error::Error| format!("{}: {error}", path.display());
+        let image = globefill::Image::open(path).map_err(|error| in_file(&error))?;
+        self.renderer
+            .insert_image(&gpu.queue, &image)
+            .map_err(|error| in_file(&error))
     }
 
     pub fn set_style(&mut self, fill: u32, style: FillStyle) -> Result<(), String> {

@@ -60,16 +60,11 @@ pub struct Times {
     pub solid_ms: Option<f64>,
     /// The ground alone.
     pub globe_ms: f64,
+    /// What styles cost beyond plain colours, in times of the ground alone: the median of the
+    /// differences between frames drawn one after the other.
+    pub style_extra_globes: Option<f64>,
     /// Of the last frame with fills.
     pub stats: FrameStats,
-}
-
-impl Times {
-    /// What styles cost beyond plain colours, in times of the ground alone.
-    pub fn style_extra_globes(&self) -> Option<f64> {
-        self.solid_ms
-            .map(|solid_ms| (self.frame_ms - solid_ms) / self.globe_ms)
-    }
 }
 
 /// Draws `frames` frames with fills, as many without and, if there is a `solid` drawing, as many of it,
@@ -104,10 +99,14 @@ pub fn times(
         }
         progress();
     }
+    let globe_ms = median(without);
+    let pairs = with_fills.iter().zip(&plain);
+    let extra_ms = median(pairs.map(|(styled, plain)| styled - plain).collect());
     Ok(Times {
         frame_ms: median(with_fills),
-        solid_ms: solid.map(|_| median(plain)),
-        globe_ms: median(without),
+        solid_ms: solid.is_some().then(|| median(plain)),
+        style_extra_globes: solid.map(|_| extra_ms / globe_ms),
+        globe_ms,
         stats,
     })
 }

@@ -249,7 +249,7 @@ impl Work<'_> {
             "fragment_invocations": invocations.as_ref().map(|counted| counted.fragment),
             "frame_ms": times.frame_ms,
             "solid_ms": times.solid_ms,
-            "style_extra_globes": times.style_extra_globes(),
+            "style_extra_globes": times.style_extra_globes,
             "globe_ms": times.globe_ms,
             "frames": self.arguments.frames,
             "repairs": self.mesh.repairs.len(),
