@@ -41,7 +41,8 @@ impl Locator {
 
     /// A locator that knows one fill only.
     pub(crate) fn of_fill(mesh: &FillMesh, fill: u32) -> Self {
-        Self::of_pieces(mesh, |piece| mesh.pieces[piece as usize].fill == fill)
+        let fill_of = |piece: u32| mesh.pieces.get(piece as usize).map(|piece| piece.fill);
+        Self::of_pieces(mesh, |piece| fill_of(piece) == Some(fill))
     }
 
     fn of_pieces(mesh: &FillMesh, is_known: impl Fn(u32) -> bool) -> Self {
