@@ -1,5 +1,6 @@
 //! The mesh that leaves the CPU: boundary arcs for walls, triangles for caps.
 
+mod extents;
 mod measures;
 
 use glam::DVec3;

@@ -34,8 +34,8 @@ pub const MOST_TEXELS: u64 = 1 << 27;
 ///
 /// Colour profiles (ICC, gamma) that a file carries are ignored: colours are taken for sRGB.
 ///
-/// Memory: four bytes a texel and a third more for the levels; while it is made, four times as much
-/// again.
+/// Memory: four bytes a texel and a third more for the levels; while it is made, as much again beside
+/// what it is made from.
 #[derive(Clone)]
 pub struct Image {
     levels: Arc<[Level]>,

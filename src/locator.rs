@@ -36,8 +36,18 @@ pub struct Locator {
 impl Locator {
     /// Indexes the true edges of a mesh; about 50 ms for the countries at 1:50 million.
     pub fn new(mesh: &FillMesh) -> Self {
-        let mut graph = BoundaryGraph::with_capacity(mesh.curves.len());
-        let labelled = labelled_edges(mesh, &mut graph);
+        Self::of_pieces(mesh, |_| true)
+    }
+
+    /// A locator that knows one fill only.
+    pub(crate) fn of_fill(mesh: &FillMesh, fill: u32) -> Self {
+        let fill_of = |piece: u32| mesh.pieces.get(piece as usize).map(|piece| piece.fill);
+        Self::of_pieces(mesh, |piece| fill_of(piece) == Some(fill))
+    }
+
+    fn of_pieces(mesh: &FillMesh, is_known: impl Fn(u32) -> bool) -> Self {
+        let mut graph = BoundaryGraph::default();
+        let labelled = labelled_edges(mesh, &mut graph, &is_known);
         let authalic = Authalic::new(mesh.ellipsoid);
         let mut enclosed = vec![None; mesh.pieces.len()];
         for &(edge, piece) in &labelled {
@@ -46,9 +56,11 @@ impl Locator {
             *sum = Some(sum.unwrap_or_default().plus(beside));
         }
         // A piece without edges is everything.
-        let has_pole: Vec<bool> = enclosed
-            .into_iter()
-            .map(|enclosed| enclosed.is_none_or(Enclosed::has_north_pole))
+        let has_pole: Vec<bool> = (0..)
+            .zip(enclosed)
+            .map(|(piece, enclosed)| {
+                is_known(piece) && enclosed.is_none_or(Enclosed::has_north_pole)
+            })
             .collect();
         let polar = (0..mesh.pieces.len() as u32).filter(|&piece| has_pole[piece as usize]);
         Self {
@@ -106,16 +118,24 @@ impl Locator {
     }
 }
 
-/// The true edges of a mesh, each with a piece to its left.
-fn labelled_edges(mesh: &FillMesh, graph: &mut BoundaryGraph) -> Vec<(DirectedEdge, u32)> {
-    let mut labelled = Vec::with_capacity(2 * mesh.curves.len());
+/// The true edges of a mesh, each with a known piece to its left.
+fn labelled_edges(
+    mesh: &FillMesh,
+    graph: &mut BoundaryGraph,
+    is_known: impl Fn(u32) -> bool,
+) -> Vec<(DirectedEdge, u32)> {
+    let mut labelled = Vec::new();
     for arc in &mesh.arcs {
+        let [left, right] = [arc.left, arc.right].map(|side| side.filter(|&piece| is_known(piece)));
+        if left.is_none() && right.is_none() {
+            continue;
+        }
         for curve in mesh.curves_along(arc) {
             let Some(edge) = graph.insert_curve(curve) else {
                 continue;
             };
-            labelled.extend(arc.left.map(|piece| (edge, piece)));
-            labelled.extend(arc.right.map(|piece| (edge.reversed(), piece)));
+            labelled.extend(left.map(|piece| (edge, piece)));
+            labelled.extend(right.map(|piece| (edge.reversed(), piece)));
         }
     }
     labelled

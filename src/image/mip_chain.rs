@@ -111,7 +111,7 @@ impl Cover {
                 count: 1,
                 weights,
             }
-        } else if side % 2 == 0 {
+        } else if side.is_multiple_of(2) {
             let weights = [0.5, 0.5, 0.0];
             Self {
                 first,

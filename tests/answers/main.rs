@@ -5,6 +5,7 @@ mod common;
 
 mod contains;
 mod countries;
+mod extents;
 mod footprints;
 mod outlines;
 mod polygons;
