@@ -1,9 +1,10 @@
 //! The façade: what a host calls.
 
+mod picking;
 mod prepare;
 mod sensors;
 
-use std::collections::BTreeMap;
+use std::{collections::BTreeMap, sync::OnceLock};
 
 use crate::{
     error::RendererError,
@@ -13,6 +14,7 @@ use crate::{
     gpu::count::{Drawn, Recorder},
     gpu::gpu_mesh::GpuMesh,
     gpu::layer_tables::{LayerTables, require},
+    gpu::pick_pipeline::PickPipeline,
     gpu::pipelines::{FAR_PLANE_FEATURES, Key, Pipelines},
     gpu::sensor_pipelines::SensorPipelines,
     options::{CountTechnique, Frame, RendererOptions},
@@ -46,6 +48,8 @@ pub struct Renderer {
     sensors: SensorSet,
     /// Made when a frame first has sensors.
     sensor_pipelines: Option<SensorPipelines>,
+    /// Made when a pixel is first asked about.
+    pick_pipeline: OnceLock<PickPipeline>,
 }
 
 struct Resident {
@@ -107,6 +111,7 @@ impl Renderer {
             fallback: None,
             sensors: SensorSet::default(),
             sensor_pipelines: None,
+            pick_pipeline: OnceLock::new(),
         })
     }
 
@@ -163,6 +168,19 @@ impl Renderer {
             self.changed();
         }
         Ok(())
+    }
+
+    /// How a fill looks from the next `prepare` on.
+    ///
+    /// # Errors
+    /// [`RendererError::NoSuchMesh`], [`RendererError::NoSuchFill`].
+    pub fn style(&self, mesh: MeshId, fill: u32) -> Result<FillStyle, RendererError> {
+        let resident = self.meshes.get(&mesh).ok_or(RendererError::NoSuchMesh)?;
+        let fills = resident.styles.len() as u32;
+        let style = resident.styles.get(fill as usize);
+        style
+            .copied()
+            .ok_or(RendererError::NoSuchFill { fill, fills })
     }
 
     fn changed(&mut self) {

@@ -10,6 +10,7 @@ const COPY_DEPTH_MULTISAMPLED: &str = include_str!("../shaders/copy_depth_multis
 const PLANES_PACKED: &str = include_str!("../shaders/planes_packed.wgsl");
 const PLANES_SEPARATE: &str = include_str!("../shaders/planes_separate.wgsl");
 const LAYER: &str = include_str!("../shaders/layer.wgsl");
+const PICK: &str = include_str!("../shaders/pick.wgsl");
 const RESOLVE: &str = include_str!("../shaders/resolve.wgsl");
 const SURFACE: &str = include_str!("../shaders/surface.wgsl");
 const SENSOR: &str = include_str!("../shaders/sensor.wgsl");
@@ -45,6 +46,11 @@ pub fn copy_depth(sample_count: u32) -> String {
 /// Decoding and colouring.
 pub fn resolve(sample_count: u32) -> String {
     [SCREEN, planes(sample_count), LAYER, RESOLVE].concat()
+}
+
+/// Which fill of a layer covers one pixel.
+pub fn pick(sample_count: u32) -> String {
+    [planes(sample_count), LAYER, PICK].concat()
 }
 
 fn planes(sample_count: u32) -> &'static str {
@@ -99,6 +105,8 @@ pub fn all() -> Vec<(&'static str, String)> {
         ("copy_depth_multisampled", copy_depth(4)),
         ("resolve", resolve(1)),
         ("resolve_multisampled", resolve(4)),
+        ("pick", pick(1)),
+        ("pick_multisampled", pick(4)),
         ("bin_sensors", bin_sensors(1)),
         ("bin_sensors_multisampled", bin_sensors(4)),
         ("count_sensors", count_sensors(1)),
@@ -114,7 +122,8 @@ mod tests {
 
     use crate::{
         frame::sensor_record::SensorRecord, frame::sight_uniform::SightUniform,
-        gpu::gpu_mesh::ArcRecord, gpu::layer_tables::LayerHead, view::FrameUniform,
+        gpu::gpu_mesh::ArcRecord, gpu::layer_tables::LayerHead, gpu::pick_pipeline::AnswerHead,
+        view::FrameUniform,
     };
 
     /// Members of a WGSL struct with their offsets, bytes, and the size of the whole.
@@ -201,6 +210,14 @@ mod tests {
         );
         assert_eq!(members, expected);
         assert_eq!(size, size_of::<SightUniform>());
+    }
+
+    #[test]
+    fn the_answer_of_a_pick_has_the_layout_of_the_shader() {
+        let (members, _) = layout_of(&super::pick(1), "Answer");
+        let mut expected = offsets!(AnswerHead: pixel, layers, unused);
+        expected.push(("fills".to_owned(), size_of::<AnswerHead>()));
+        assert_eq!(members, expected);
     }
 
     #[test]
