@@ -278,25 +278,30 @@ fn circle(centre: LonLat, radius_m: f64) -> (Region, ZoneOracle) {
 }
 
 #[test]
-fn refined_walls_that_leave_no_room_do_not_matter() {
+fn where_refined_walls_have_no_room_the_stencil_answers() {
     let Some(poorer) = gpu_without(wgpu::Features::FLOAT32_BLENDABLE) else {
         return;
     };
-    let (region, oracle) = circle(CENTRE, 5e4);
+    // Stored sums fit half floats; those of the small circle's finer walls do not.
+    let radius_m = 1e4;
+    let (mut region, oracle) = circle(CENTRE, radius_m);
+    let elsewhere = Zone::circle(LonLat::new(30.0, 20.0), 6e4);
+    region.zones.push(elsewhere);
     let far = disk(1, DepthKind::Reversed);
     let mut host = Host::new(&poorer, far, CountTechnique::Winding);
     let mesh = host.insert(&[region]);
     assert_eq!(host.draw().technique, CountTechnique::Winding);
-    let judge = |at| match oracle.contains(at) {
-        true => vec![PickedFill { mesh, fill: 0 }],
-        false => vec![],
+    let judge = |at| {
+        let inside = oracle.contains(at);
+        let fills = inside.then_some(PickedFill { mesh, fill: 0 });
+        fills.into_iter().collect()
     };
-    let rim = oracle.go(CENTRE, 60.0, 5e4);
-    let pose = Pose::nadir(rim.lon_deg, rim.lat_deg, 3000.0).turned(150.0, -20.0);
+    let rim = oracle.go(CENTRE, 60.0, radius_m);
+    let pose = Pose::nadir(rim.lon_deg, rim.lat_deg, 100.0).turned(150.0, -20.0);
     host.surface = surface(pose, 1, Terrain::Bare, DepthKind::Reversed);
     assert_eq!(host.draw().technique, CountTechnique::Stencil);
     let (stacks, pixels) = compare(&host, &judge, 7);
-    assert!(stacks == 2 && pixels > 800, "{stacks} at {pixels}");
+    assert!(stacks == 2 && pixels > 500, "{stacks} at {pixels}");
 }
 
 /// Three circles that hold the centre, each reaching farther than the one before.
