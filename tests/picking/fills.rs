@@ -1,5 +1,8 @@
 //! What is found, and in which order.
 
+use std::slice::from_ref;
+
+use glam::UVec2;
 use globefill::{
     CountTechnique, EdgeKind, Ellipsoid, FrameStats, LonLat, PickedFill, Polygon, Region, Zone,
     countries::Dataset, wgpu,
@@ -13,7 +16,9 @@ use crate::{
         surface::{DepthKind, Terrain},
         zone_oracle::ZoneOracle,
     },
-    host::{CENTRE, Host, SKY, TECHNIQUES, circle, circles, compare, disk, mountains, surface},
+    host::{
+        CENTRE, Host, SIZE, SKY, TECHNIQUES, circle, circles, compare, disk, mountains, surface,
+    },
 };
 
 fn countries() -> Vec<Region> {
@@ -79,6 +84,41 @@ fn multisampled_hosts_are_asked_about_their_first_sample() {
     for count in TECHNIQUES {
         let mut host = Host::new(gpu, disk(4, DepthKind::Reversed), count);
         compare_countries(&mut host, count);
+    }
+}
+
+#[test]
+fn of_samples_that_differ_the_first_answers() {
+    let Some(gpu) = gpu() else { return };
+    let (region, oracle) = circle(CENTRE, 2e6);
+    for count in TECHNIQUES {
+        let mut host = Host::new(gpu, disk(4, DepthKind::Reversed), count);
+        let mesh = host.insert(from_ref(&region));
+        host.draw();
+        let surface = &host.surface;
+        let outside_m = |pixel: UVec2, sample: usize| {
+            let index = (pixel.y * SIZE.x + pixel.x) as usize;
+            let point_m = surface.points_m[sample * surface.pixel_count() + index]?;
+            Some(oracle.outside_m(surface.figure().geodetic(point_m).0))
+        };
+        // A pixel is some 140 km wide, where it is not seen aslant.
+        let pixels: Vec<UVec2> = (0..SIZE.y)
+            .flat_map(|y| (0..SIZE.x).map(move |x| UVec2::new(x, y)))
+            .filter(|&pixel| {
+                let samples = [0, 1, 2, 3].map(|sample| outside_m(pixel, sample));
+                samples[0].is_some_and(|first_m| {
+                    let differs = |it: &f64| (*it < 0.0) != (first_m < 0.0);
+                    first_m.abs() > 5e3 && samples.iter().flatten().any(differs)
+                })
+            })
+            .collect();
+        let inside = |pixel| outside_m(pixel, 0).is_some_and(|first_m| first_m < 0.0);
+        let insides = pixels.iter().filter(|&&pixel| inside(pixel)).count();
+        assert!(insides > 10 && pixels.len() - insides > 10, "{insides}");
+        for (&pixel, picked) in pixels.iter().zip(host.pick(&pixels)) {
+            let expected = inside(pixel).then_some(PickedFill { mesh, fill: 0 });
+            assert_eq!(picked, Vec::from_iter(expected), "at {pixel}");
+        }
     }
 }
 
@@ -182,9 +222,9 @@ fn fills_of_two_meshes_are_told_apart() {
     for count in TECHNIQUES {
         let mut host = Host::new(gpu, disk(1, DepthKind::Reversed), count);
         // A mesh that is gone: numbers of meshes are not their places.
-        let gone = host.insert(&[large.clone()]);
+        let gone = host.insert(from_ref(&large));
         let first = host.insert(&[small.clone(), large.clone()]);
-        let second = host.insert(&[middle.clone()]);
+        let second = host.insert(from_ref(&middle));
         host.renderer.remove(gone).expect("it is there");
         let small = PickedFill {
             mesh: first,

@@ -1,5 +1,7 @@
 //! Which frame is answered for, and what is no question or no answer.
 
+use std::slice::from_ref;
+
 use glam::UVec2;
 use globefill::{CountTechnique, FillStyle, Pick, PickedFill, RendererError};
 
@@ -15,7 +17,7 @@ fn a_frame_is_answered_as_it_was_prepared() {
     for count in TECHNIQUES {
         let mut host = Host::new(gpu, disk(1, DepthKind::Reversed), count);
         let below = host.insert(&[large.clone(), middle.clone()]);
-        let above = host.insert(&[small.clone()]);
+        let above = host.insert(from_ref(&small));
         let shown = [
             PickedFill {
                 mesh: above,
@@ -72,12 +74,12 @@ fn changes_between_prepare_and_count_leave_the_order() {
     let [small, middle, large] = circles().map(|(region, _)| region);
     for count in TECHNIQUES {
         let mut host = Host::new(gpu, disk(1, DepthKind::Reversed), count);
-        let removed = host.insert(&[middle.clone()]);
+        let removed = host.insert(from_ref(&middle));
         let mesh = host.insert(&[small.clone(), large.clone()]);
         host.prepare();
         host.renderer.remove(removed).expect("it is there");
         host.restyle(mesh, 0, |style| style.z_index = 3);
-        host.insert(&[middle.clone()]);
+        host.insert(from_ref(&middle));
         let (_, depth) = depth_texture(gpu, &host.surface, host.options.depth_format);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         host.renderer.count(&mut host.view, &mut encoder, &depth);
