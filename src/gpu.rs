@@ -6,6 +6,7 @@ pub(crate) mod fixed_point;
 pub(crate) mod gpu_mesh;
 pub(crate) mod image_arrays;
 pub(crate) mod layer_tables;
+pub(crate) mod pick_pipeline;
 pub(crate) mod pipelines;
 pub(crate) mod planes;
 pub(crate) mod sensor_pipelines;

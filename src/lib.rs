@@ -116,6 +116,10 @@
 //! What the pixels show can be asked for exactly, in double precision, from the true boundaries:
 //! [`Locator`] tells which fills contain a point, [`FillMesh::measures`] and
 //! [`FillMesh::bounding_cap`] tell area, centroid and extent, [`Outline`] the same of other curves.
+//!
+//! What lies under the pointer can be asked of the picture itself, terrain and all:
+//! [`Renderer::read_fills`] tells which fills are at a pixel, [`Renderer::read_coverage`] how many
+//! sensors see what is there.
 
 #[cfg(feature = "countries")]
 pub mod countries;
@@ -138,6 +142,7 @@ pub mod length;
 pub mod locator;
 pub mod options;
 pub mod outline;
+pub mod pick;
 pub mod region;
 pub mod renderer;
 pub mod repair;
@@ -175,6 +180,7 @@ pub use crate::{
     locator::Locator,
     options::{Camera, CountTechnique, DepthConvention, Frame, HeightRange, RendererOptions},
     outline::{Cap, Measures, Outline, Stretch},
+    pick::{Pick, PickedFill},
     region::{EdgeKind, Inside, Polygon, Region, Ring},
     renderer::{MeshId, Renderer},
     repair::{Place, Repair, RepairKind},

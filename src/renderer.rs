@@ -1,10 +1,11 @@
 //! The façade: what a host calls.
 
+mod picking;
 mod prepare;
 mod sensors;
 mod styles;
 
-use std::collections::BTreeMap;
+use std::{collections::BTreeMap, sync::OnceLock};
 
 use crate::{
     error::RendererError,
@@ -16,6 +17,7 @@ use crate::{
     gpu::gpu_mesh::GpuMesh,
     gpu::image_arrays::ImageArrays,
     gpu::layer_tables::{LayerTables, require},
+    gpu::pick_pipeline::PickPipeline,
     gpu::pipelines::{FAR_PLANE_FEATURES, Key, Pipelines},
     gpu::sensor_pipelines::SensorPipelines,
     gpu::style_pipelines::StylePipelines,
@@ -54,6 +56,8 @@ pub struct Renderer {
     sensors: SensorSet,
     /// Made when a frame first has sensors.
     sensor_pipelines: Option<SensorPipelines>,
+    /// Made when a pixel is first asked about.
+    pick_pipeline: OnceLock<PickPipeline>,
 }
 
 struct Resident {
@@ -119,6 +123,7 @@ impl Renderer {
             images: None,
             sensors: SensorSet::default(),
             sensor_pipelines: None,
+            pick_pipeline: OnceLock::new(),
         })
     }
 

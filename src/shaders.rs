@@ -10,6 +10,7 @@ const COPY_DEPTH_MULTISAMPLED: &str = include_str!("../shaders/copy_depth_multis
 const PLANES_PACKED: &str = include_str!("../shaders/planes_packed.wgsl");
 const PLANES_SEPARATE: &str = include_str!("../shaders/planes_separate.wgsl");
 const LAYER: &str = include_str!("../shaders/layer.wgsl");
+const PICK: &str = include_str!("../shaders/pick.wgsl");
 const RESOLVE: &str = include_str!("../shaders/resolve.wgsl");
 const ARCTANGENT: &str = include_str!("../shaders/arctangent.wgsl");
 const STYLE: &str = include_str!("../shaders/style.wgsl");
@@ -73,6 +74,11 @@ pub fn resolve_styled(sample_count: u32) -> String {
     parts.concat()
 }
 
+/// Which fill of a layer covers one pixel.
+pub fn pick(sample_count: u32) -> String {
+    [planes(sample_count), LAYER, PICK].concat()
+}
+
 fn planes(sample_count: u32) -> &'static str {
     if sample_count > 1 {
         PLANES_SEPARATE
@@ -127,6 +133,8 @@ pub fn all() -> Vec<(&'static str, String)> {
         ("resolve_multisampled", resolve(4)),
         ("resolve_styled", resolve_styled(1)),
         ("resolve_styled_multisampled", resolve_styled(4)),
+        ("pick", pick(1)),
+        ("pick_multisampled", pick(4)),
         ("bin_sensors", bin_sensors(1)),
         ("bin_sensors_multisampled", bin_sensors(4)),
         ("count_sensors", count_sensors(1)),
@@ -143,7 +151,7 @@ mod tests {
     use crate::{
         frame::placed::Placed, frame::sensor_record::SensorRecord,
         frame::sight_uniform::SightUniform, gpu::gpu_mesh::ArcRecord, gpu::layer_tables::LayerHead,
-        gpu::style_table::StyleRecord, view::FrameUniform,
+        gpu::pick_pipeline::AnswerHead, gpu::style_table::StyleRecord, view::FrameUniform,
     };
 
     /// Members of a WGSL struct with their offsets, bytes, and the size of the whole.
@@ -268,6 +276,14 @@ mod tests {
             let expected = format!("const NEEDS_{name}: u32 = {bit}u;");
             assert!(source.contains(&expected), "{expected}");
         }
+    }
+
+    #[test]
+    fn the_answer_of_a_pick_has_the_layout_of_the_shader() {
+        let (members, _) = layout_of(&super::pick(1), "Answer");
+        let mut expected = offsets!(AnswerHead: pixel, layers, unused);
+        expected.push(("fills".to_owned(), size_of::<AnswerHead>()));
+        assert_eq!(members, expected);
     }
 
     #[test]

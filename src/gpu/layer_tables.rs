@@ -1,5 +1,7 @@
 //! Layers on the GPU: the tables by which sums become colours.
 
+use std::sync::Arc;
+
 use wgpu::util::DeviceExt as _;
 
 use crate::{
@@ -14,7 +16,8 @@ use crate::{
 
 /// The layers of everything visible, with the tables of each that resolve reads.
 pub(crate) struct LayerTables {
-    pub layering: Layering,
+    /// Shared with those who asked which fills a pixel shows.
+    pub layering: Arc<Layering>,
     pub tables: Vec<wgpu::Buffer>,
     /// Of the layers that plain colours do not do for.
     pub styles: Vec<Option<StyleTable>>,
@@ -33,7 +36,7 @@ impl LayerTables {
         technique: CountTechnique,
         mantissa: Mantissa,
     ) -> Result<Self, RendererError> {
-        let layering = Layering::assign(from.styled, technique, mantissa)?;
+        let layering = Arc::new(Layering::assign(from.styled, technique, mantissa)?);
         // Where the stencil counts, nothing is summed and 32-bit targets need no blending.
         let mantissa = match layering.technique {
             CountTechnique::Winding => mantissa,

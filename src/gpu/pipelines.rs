@@ -101,7 +101,13 @@ impl Pipelines {
             options,
             frame_layout: layout(device, "globefill frame", vertex | fragment, &[uniform]),
             mesh_layout: layout(device, "globefill mesh", vertex, &[storage; 4]),
-            resolve_layout: layout(device, "globefill resolve", fragment, &resolve_bindings),
+            // Picking binds what resolving does.
+            resolve_layout: layout(
+                device,
+                "globefill resolve",
+                fragment | wgpu::ShaderStages::COMPUTE,
+                &resolve_bindings,
+            ),
             depth_layout: layout(
                 device,
                 "globefill depth",

@@ -4,7 +4,7 @@ use glam::UVec2;
 
 use crate::{
     frame::code::MAX_PLANES, gpu::fixed_function::STENCIL_FORMAT, gpu::pipelines::Pipelines,
-    gpu::planes::Planes,
+    gpu::planes::Planes, pick::Pick,
 };
 
 /// What targets depend on.
@@ -23,6 +23,8 @@ pub(crate) struct TargetsKey {
 pub(crate) struct Targets {
     pub key: TargetsKey,
     pub layers: Vec<LayerTarget>,
+    /// What the ids in the layers mean.
+    pub pick: Pick,
     pub stencil: Option<wgpu::TextureView>,
 }
 
@@ -38,6 +40,7 @@ impl Targets {
         pipelines: &Pipelines,
         sample_count: u32,
         layer_tables: &[wgpu::Buffer],
+        pick: Pick,
         key: TargetsKey,
     ) -> Self {
         let texture = |label, format, usage| {
@@ -85,6 +88,7 @@ impl Targets {
         Self {
             key,
             layers,
+            pick,
             stencil,
         }
     }

@@ -16,6 +16,7 @@ use crate::{
     gpu::style_table::StyleSource,
     gpu::targets::{Targets, TargetsKey},
     options::{CountTechnique, Frame},
+    pick::Pick,
     view::{MeshView, Prepared, Upload, View},
 };
 
@@ -174,7 +175,9 @@ impl Renderer {
             .is_none_or(|targets| targets.key != key)
         {
             let samples = self.options.sample_count;
-            let targets = Targets::new(&self.device, &self.pipelines, samples, &layers.tables, key);
+            let pick = Pick::new(layers.layering.clone(), self.meshes.keys().copied());
+            let tables = &layers.tables;
+            let targets = Targets::new(&self.device, &self.pipelines, samples, tables, pick, key);
             view.targets = Some(targets);
         }
         Ok(())

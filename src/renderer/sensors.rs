@@ -133,7 +133,8 @@ impl Renderer {
     /// `offset`, a multiple of 4, hold the number as a little-endian `u32`; 0 for the sky. `into` needs
     /// `COPY_DST`, and `MAP_READ` to be read by the host.
     ///
-    /// Which sensors they are, [`SensorSet::covering`](crate::SensorSet::covering) says.
+    /// Which sensors they are, [`SensorSet::covering`](crate::SensorSet::covering) says; which fills
+    /// are at a pixel, [`read_fills`](Self::read_fills).
     ///
     /// # Errors
     /// [`RendererError::NoSuchPixel`] if the pixel lies outside the prepared frame, or nothing was

@@ -62,6 +62,19 @@ impl Renderer {
         Ok(())
     }
 
+    /// How a fill looks from the next `prepare` on.
+    ///
+    /// # Errors
+    /// [`RendererError::NoSuchMesh`], [`RendererError::NoSuchFill`].
+    pub fn style(&self, mesh: MeshId, fill: u32) -> Result<FillStyle, RendererError> {
+        let resident = self.meshes.get(&mesh).ok_or(RendererError::NoSuchMesh)?;
+        let fills = resident.styles.len() as u32;
+        let style = resident.styles.get(fill as usize);
+        style
+            .copied()
+            .ok_or(RendererError::NoSuchFill { fill, fills })
+    }
+
     /// Height over width of the image that a style shows; 1 for none.
     fn tallness(&self, style: &FillStyle) -> Result<f64, StyleError> {
         let Some(image) = style.pattern.and_then(|pattern| pattern.image()) else {
@@ -251,7 +264,7 @@ fn image_place(mesh: &FillMesh, fill: u32, image: &ImageFill) -> PatternPlace {
     let rotation_rad = f64::from(image.rotation_rad);
     let repeats = DVec2::from_array(image.repeats.map(f64::from));
     let angles = |extents: Option<Extents>, spherical| {
-        let extents = extents.or(Some(Extents::GLOBE));
+        let extents = extents.or_else(|| mesh.extents(fill));
         let extents = extents.unwrap_or(Extents::GLOBE);
         let place = AnglePlace::new(ellipsoid, extents, spherical, rotation_rad, repeats);
         PatternPlace::Angles(place)
