@@ -2,9 +2,10 @@
 // unit, or of 2^k units with k chosen at each pixel so that it looks as wide as asked for. Averages over
 // the pixel are exact for lines and squares, and for dots but for their bend within a pixel.
 
-// Halfway from one k to the next, while the period looks 2^0.5 too large or too small, every other line
-// grows and the rest vanish; they do within this share of the way on either side.
-const CHANGE: f32 = 0.08;
+// Halfway from one k to the next, where the period looks 2^0.5 too small, every other line grows and the
+// rest vanish: from 2^0.42 to 2^0.58.
+const CHANGE_FROM: f32 = 1.338;
+const CHANGE_TO: f32 = 1.495;
 
 // Periods along one axis.
 struct Cells {
@@ -19,32 +20,30 @@ struct Cells {
 }
 
 // `phase`: whole and fraction of the coordinate at the eye's foot point; `from_foot`: the difference from
-// there; `width`: how much it changes across the pixel; `wanted`: the period in pixels, 0 for one unit.
-fn cells_of(phase: vec2<u32>, from_foot: f32, width: f32, wanted: f32) -> Cells {
-    if wanted == 0.0 {
-        return Cells(from_foot + fraction_of(phase.y), phase.x, width, 0.0);
-    }
-    let level = clamp(log2(max(wanted * width, 1e-9)), -24.0, 29.0);
-    let k = i32(floor(level));
-    let scale = exp2(-f32(k));
+// there; `slope`: how much it changes per pixel; `wanted`: the period in pixels, 0 for one unit.
+fn cells_of(phase: vec2<u32>, from_foot: f32, slope: f32, wanted: f32) -> Cells {
+    let fitting = clamp(wanted * slope, 1e-7, 5e8);
+    // fitting = 2^k * rest with rest in 1 ... 2: what a float consists of.
+    let bits = bitcast<u32>(fitting);
+    let exponent = select(bits >> 23u, 127u, wanted == 0.0);
+    let rest = bitcast<f32>((bits & 0x7fffffu) | 0x3f800000u);
+    let scale = bitcast<f32>((254u - exponent) << 23u);
     // The coordinate divided by 2^k: the same bits, shifted. Those of a shift by 0 or 32 are left out.
-    let left = u32(max(-k, 0));
-    let right = u32(max(k, 0));
-    let whole = select(phase.x >> right, (phase.x << left) | (phase.y >> (32u - left)), k < 0);
-    let carried = select((phase.y >> right) | (phase.x << (32u - right)), phase.y << left, k < 0);
-    let fraction = select(carried, phase.y, k == 0);
-    let change = smoothstep(0.5 - CHANGE, 0.5 + CHANGE, level - f32(k));
-    return Cells(from_foot * scale + fraction_of(fraction), whole, width * scale, change);
+    let left = max(127u, exponent) - exponent;
+    let right = exponent - min(127u, exponent);
+    let whole = select(phase.x >> right, (phase.x << left) | (phase.y >> (32u - left)), left > 0u);
+    let carried = select(phase.y << left, (phase.y >> right) | (phase.x << (32u - right)), right > 0u);
+    let change = select(smoothstep(CHANGE_FROM, CHANGE_TO, rest), 0.0, wanted == 0.0);
+    return Cells(from_foot * scale + fraction_of(carried), whole, slope * scale, change);
 }
 
 fn fraction_of(bits: u32) -> f32 {
     return f32(bits >> 8u) / 16777216.0;
 }
 
-// Share of a pixel of `width` about `at` that lies within `half` of 0.
-fn overlap(at: f32, width: f32, half: f32) -> f32 {
-    let both = min(at + 0.5 * width, half) - max(at - 0.5 * width, -half);
-    return max(both, 0.0) / width;
+// Length of the part of 2 * reach about `at` that lies within `half` of 0.
+fn overlap(at: f32, reach: f32, half: f32) -> f32 {
+    return max(min(at + reach, half) - max(at - reach, -half), 0.0);
 }
 
 // Where pixels are wider than a period, only the mean is left.
@@ -55,16 +54,15 @@ fn blur(width: f32) -> f32 {
 // Lines that cover `share`.
 fn lines(cells: Cells, share: f32) -> f32 {
     let nearest = round(cells.at);
-    let at = cells.at - nearest;
+    let at = abs(cells.at - nearest);
     let odd = ((cells.number + u32(i32(nearest))) & 1u) == 1u;
-    let grown = 0.5 * share * (1.0 + cells.change);
-    let shrunk = 0.5 * share * (1.0 - cells.change);
-    let here = select(grown, shrunk, odd);
-    let beside = select(shrunk, grown, odd);
+    let change = select(cells.change, -cells.change, odd);
+    let here = 0.5 * share * (1.0 + change);
+    let beside = 0.5 * share * (1.0 - change);
+    // Wider pixels are blurred, and none so wide that it reaches the line beyond the nearer neighbour counts.
     let width = clamp(cells.width, 1e-6, 1.0);
-    let covered = overlap(at, width, here) + overlap(at - 1.0, width, beside)
-        + overlap(at + 1.0, width, beside);
-    return mix(covered, share, blur(cells.width));
+    let covered = overlap(at, 0.5 * width, here) + overlap(at - 1.0, 0.5 * width, beside);
+    return mix(covered / width, share, blur(cells.width));
 }
 
 // A wave that is 1 on even and -1 on odd squares.
@@ -83,7 +81,7 @@ fn checker_wave(cells: Cells) -> f32 {
 }
 
 // Dots: ellipses on the grid of both axes' lines, that grow with the lines that grow.
-fn dots(u: Cells, v: Cells, right: vec2<f32>, down: vec2<f32>, share: f32) -> f32 {
+fn dots(u: Cells, v: Cells, u_slope: vec2<f32>, v_slope: vec2<f32>, share: f32) -> f32 {
     let cells = vec2<f32>(u.at, v.at);
     let nearest = round(cells);
     let at = cells - nearest;
@@ -98,7 +96,7 @@ fn dots(u: Cells, v: Cells, right: vec2<f32>, down: vec2<f32>, share: f32) -> f3
     let scaled = at / radii;
     let level = max(length(scaled), 1e-3);
     let slope = scaled / (level * radii);
-    let radius = 1.0 / max(length(vec2<f32>(dot(slope, right), dot(slope, down))), 1e-9);
+    let radius = 1.0 / max(length(slope.x * u_slope + slope.y * v_slope), 1e-9);
     // A ramp of 1 px about the edge of a disc covers 1/12 px^2 more than the disc; smaller discs than that
     // is good for are drawn paler.
     let drawn = max(radius, 0.5);

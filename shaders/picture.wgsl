@@ -17,19 +17,16 @@ fn picture(style: u32, phase: vec4<u32>, mapped: Mapped) -> vec4<f32> {
     let at = fraction + vec2<f32>(vec2<i32>(phase.xz));
     var texel = vec4<f32>(0.0);
     if needs(NEEDS_CLAMPED) {
-        texel = textureSampleGrad(images, clamped, at, layer, mapped.right, mapped.down);
-        let width = abs(mapped.right) + abs(mapped.down);
-        let shown = inside(at.x, width.x) * inside(at.y, width.y);
+        texel = sampled(clamped, at, layer, mapped);
+        let u_width = abs(mapped.u_slope.x) + abs(mapped.u_slope.y);
+        let v_width = abs(mapped.v_slope.x) + abs(mapped.v_slope.y);
+        let shown = inside(at.x, u_width) * inside(at.y, v_width);
         texel *= select(1.0, shown, wrap == CLIP);
     }
     if needs(NEEDS_REPEATED) && wrap == REPEAT {
-        texel = repeating(layer, fraction, mapped.right, mapped.down);
+        texel = sampled(repeated, fract(fraction), layer, mapped);
     }
     return texel * styles[style].ink.w;
-}
-
-fn repeating(layer: u32, at: vec2<f32>, right: vec2<f32>, down: vec2<f32>) -> vec4<f32> {
-    return textureSampleGrad(images, repeated, fract(at), layer, right, down);
 }
 
 // An image that repeats like a hatch, at two scales while one turns into the other.
@@ -37,17 +34,39 @@ fn tiles(style: u32, phase: vec4<u32>, mapped: Mapped) -> vec4<f32> {
     let layer = styles[style].pattern.z;
     let wanted = styles[style].hatch.y;
     // One scale for both axes, so that the image keeps its shape; v counts heights of the image.
-    let u_width = length(vec2<f32>(mapped.right.x, mapped.down.x));
-    let v_width = length(vec2<f32>(mapped.right.y, mapped.down.y)) * styles[style].hatch.z;
-    let width = sqrt(u_width * v_width);
-    let u = cells_of(phase.xy, mapped.uv.x, width, wanted);
-    let v = cells_of(phase.zw, mapped.uv.y, width, wanted);
-    let scale = vec2<f32>(1.0, -1.0) * u.width / max(width, 1e-30);
-    let right = mapped.right * scale;
-    let down = mapped.down * scale;
-    let fine = repeating(layer, vec2<f32>(u.at, -v.at), right, down);
+    let u_slope = length(mapped.u_slope);
+    let v_slope = length(mapped.v_slope) * styles[style].hatch.z;
+    let slope = sqrt(u_slope * v_slope);
+    let u = cells_of(phase.xy, mapped.uv.x, slope, wanted);
+    let v = cells_of(phase.zw, mapped.uv.y, slope, wanted);
+    let scale = u.width / max(slope, 1e-30);
+    let fine = Mapped(vec2<f32>(u.at, -v.at), mapped.u_slope * scale, -mapped.v_slope * scale);
     let number = vec2<f32>(vec2<u32>(u.number, v.number) & vec2<u32>(1u));
     let twice = 0.5 * vec2<f32>(u.at + number.x, -v.at - number.y);
-    let coarse = repeating(layer, twice, 0.5 * right, 0.5 * down);
-    return mix(fine, coarse, u.change) * styles[style].ink;
+    let coarse = Mapped(twice, 0.5 * fine.u_slope, 0.5 * fine.v_slope);
+    let finely = sampled(repeated, fract(fine.uv), layer, fine);
+    let coarsely = sampled(repeated, fract(coarse.uv), layer, coarse);
+    return mix(finely, coarsely, u.change) * styles[style].ink;
+}
+
+// Most samples along what a pixel spans of an image; what is longer is blurred.
+const MOST_TAPS: f32 = 8.0;
+
+// The mean of an image over what a pixel spans: samples as fine as its shorter side along the longer.
+fn sampled(filtering: sampler, at: vec2<f32>, layer: u32, mapped: Mapped) -> vec4<f32> {
+    let right = vec2<f32>(mapped.u_slope.x, mapped.v_slope.x);
+    let down = vec2<f32>(mapped.u_slope.y, mapped.v_slope.y);
+    let size = vec2<f32>(textureDimensions(images));
+    let across = vec2<f32>(dot(right * size, right * size), dot(down * size, down * size));
+    let long = select(right, down, across.y > across.x);
+    let longer = max(across.x, across.y);
+    // The parallelogram of both sides has the area of longer times shorter.
+    let area = abs(right.x * down.y - right.y * down.x) * size.x * size.y;
+    let taps = clamp(round(longer / max(area, 1e-12)), 1.0, MOST_TAPS);
+    let level = 0.5 * log2(max(longer, 1e-12)) - log2(taps);
+    var sum = vec4<f32>(0.0);
+    for (var tap = 0.5; tap < taps; tap += 1.0) {
+        sum += textureSampleLevel(images, filtering, at + (tap / taps - 0.5) * long, layer, level);
+    }
+    return sum / taps;
 }

@@ -7,9 +7,12 @@ struct Screen {
     @location(0) @interpolate(flat) array: u32,
 }
 
+// The corners of the window, as a strip.
 @vertex
 fn vs_styled(@builtin(vertex_index) corner: u32, @builtin(instance_index) array: u32) -> Screen {
-    return Screen(screen_corner(corner), array);
+    let greatest = vec2<bool>((corner & 1u) == 1u, corner >= 2u);
+    let at = select(sight.window.xy, sight.window.zw, greatest);
+    return Screen(vec4<f32>(at, 0.0, 1.0), array);
 }
 
 // Ink of a pattern that lies at a place on its map or its longitudes and latitudes.
@@ -24,20 +27,21 @@ fn ink_of(style: u32, seen: Seen) -> vec4<f32> {
     var covered = 0.0;
     if needs(NEEDS_LINES | NEEDS_DOTS | NEEDS_CHECKER) {
         let hatch = styles[style].hatch;
-        let u_width = length(vec2<f32>(mapped.right.x, mapped.down.x));
-        let u = cells_of(phase.xy, mapped.uv.x, u_width, hatch.y);
+        let u_slope = length(mapped.u_slope);
+        let u = cells_of(phase.xy, mapped.uv.x, u_slope, hatch.y);
         if needs(NEEDS_LINES) && (kind == LINES || kind == CROSS) {
             covered = lines(u, hatch.x);
         }
         if needs(NEEDS_ACROSS) {
-            let v_width = length(vec2<f32>(mapped.right.y, mapped.down.y));
-            let v = cells_of(phase.zw, mapped.uv.y, v_width, hatch.y);
+            let v_slope = length(mapped.v_slope);
+            let v = cells_of(phase.zw, mapped.uv.y, v_slope, hatch.y);
             if needs(NEEDS_LINES) && kind == CROSS {
                 covered = 1.0 - (1.0 - covered) * (1.0 - lines(v, hatch.x));
             }
             if needs(NEEDS_DOTS) && kind == DOTS {
-                let periods = vec2<f32>(u.width / max(u_width, 1e-30), v.width / max(v_width, 1e-30));
-                covered = dots(u, v, mapped.right * periods, mapped.down * periods, hatch.x);
+                let u_cells = mapped.u_slope * (u.width / max(u_slope, 1e-30));
+                let v_cells = mapped.v_slope * (v.width / max(v_slope, 1e-30));
+                covered = dots(u, v, u_cells, v_cells, hatch.x);
             }
             if needs(NEEDS_CHECKER) && kind == CHECKER {
                 covered = 0.5 + 0.5 * checker_wave(u) * checker_wave(v);
@@ -67,17 +71,12 @@ fn paint_of(style: u32, seen: Seen) -> vec4<f32> {
 fn styled_at(pixel: vec2<u32>, sample: u32, array: u32) -> vec4<f32> {
     let fill = fill_at(vec2<i32>(pixel), sample);
     let style = max(fill, 1u) - 1u;
-    var color = vec4<f32>(0.0);
-    // Not an `if`: software adapters walk through both sides of those, but leave loops.
-    var drawn = fill != NONE && styles[style].pattern.w == array;
-    while drawn {
-        let depth = depth_at(pixel, sample);
-        let seen = seen_at(vec2<f32>(pixel) + sample_px(sample), depth);
-        color = paint_of(style, seen) * opacity_of(style, seen);
-        color.w *= styles[style].fade_sine.z;
-        drawn = false;
+    let seen = seen_at(vec2<f32>(pixel) + sample_px(sample), depth_at(pixel, sample));
+    if fill == NONE || styles[style].pattern.w != array {
+        discard;
     }
-    return color;
+    let color = paint_of(style, seen) * opacity_of(style, seen);
+    return vec4<f32>(color.xyz, color.w * styles[style].fade_sine.z);
 }
 
 @fragment

@@ -1,9 +1,5 @@
 // A triangle that covers the screen.
-fn screen_corner(corner: u32) -> vec4<f32> {
-    return vec4<f32>(f32(corner & 1u) * 4.0 - 1.0, f32(corner >> 1u) * 4.0 - 1.0, 0.0, 1.0);
-}
-
 @vertex
 fn vs_screen(@builtin(vertex_index) corner: u32) -> @builtin(position) vec4<f32> {
-    return screen_corner(corner);
+    return vec4<f32>(f32(corner & 1u) * 4.0 - 1.0, f32(corner >> 1u) * 4.0 - 1.0, 0.0, 1.0);
 }

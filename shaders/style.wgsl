@@ -74,37 +74,16 @@ fn needs(what: u32) -> bool {
     return (NEEDS & what) != 0u;
 }
 
-// A surface point that a pixel shows.
-struct Seen {
-    place: Place,
-    span: Span,
-    // From the eye.
-    distance: f32,
-    // What a pixel spans across the line of sight, metres.
-    pixel: f32,
-}
-
-fn seen_at(at_px: vec2<f32>, depth: f32) -> Seen {
-    let ray = ray_at(at_px);
-    let along = distance_of(depth);
-    let place = place_of(ray * along, 0.0);
-    return Seen(
-        place,
-        span_of(ray, along, place),
-        length(place.from_eye),
-        along * length(sight.down.xyz),
-    );
-}
-
 // Full opacity, or what fading leaves of it.
 fn opacity_of(style: u32, seen: Seen) -> f32 {
     var opacity = styles[style].hatch.w;
     if needs(NEEDS_FADES) {
         let fade = styles[style].fade;
         let sine = styles[style].fade_sine;
-        opacity *= saturate((seen.distance - fade.x) * fade.y)
-            * saturate((seen.pixel - fade.z) * fade.w)
-            * saturate((seen.span.sine - sine.x) * sine.y);
+        let pixel = seen.along * length(sight.down.xyz);
+        opacity *= saturate((length(seen.from_eye) - fade.x) * fade.y)
+            * saturate((pixel - fade.z) * fade.w)
+            * saturate((sine_of(seen) - sine.x) * sine.y);
     }
     return opacity;
 }

@@ -27,6 +27,8 @@ struct Sight {
     // Lowest and highest surface, see strays; z: optical depth of one unit of weight; w: the least sine
     // of obliqueness, see pixel.wgsl.
     bounds: vec4<f32>,
+    // What holds all that is drawn, in clip space: least x and y, greatest x and y.
+    window: vec4<f32>,
 }
 
 @group(2) @binding(1) var<uniform> sight: Sight;

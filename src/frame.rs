@@ -11,3 +11,4 @@ pub(crate) mod sensor_records;
 pub(crate) mod sight;
 pub(crate) mod sight_uniform;
 pub(crate) mod volumes;
+pub(crate) mod window;

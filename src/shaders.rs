@@ -18,7 +18,7 @@ const MAP: &str = include_str!("../shaders/map.wgsl");
 const HATCH: &str = include_str!("../shaders/hatch.wgsl");
 const PICTURE: &str = include_str!("../shaders/picture.wgsl");
 const RESOLVE_STYLED: &str = include_str!("../shaders/resolve_styled.wgsl");
-const PIXEL: &str = include_str!("../shaders/pixel.wgsl");
+const SEEN: &str = include_str!("../shaders/seen.wgsl");
 const SURFACE: &str = include_str!("../shaders/surface.wgsl");
 const SENSOR: &str = include_str!("../shaders/sensor.wgsl");
 const DEPTH: &str = include_str!("../shaders/depth.wgsl");
@@ -63,7 +63,7 @@ pub fn resolve_styled(sample_count: u32) -> String {
         LAYER,
         depth(sample_count),
         SURFACE,
-        PIXEL,
+        SEEN,
         ARCTANGENT,
         STYLE,
         MAP,
@@ -234,7 +234,7 @@ mod tests {
         let (members, size) = layout_of(&super::bin_sensors(1), "Sight");
         let expected = offsets!(
             SightUniform: ray, right, down, depth, ellipsoid, eye_gradient, foot_gradient, size,
-            tiles, blocks, counts, bounds
+            tiles, blocks, counts, bounds, window
         );
         assert_eq!(members, expected);
         assert_eq!(size, size_of::<SightUniform>());

@@ -6,6 +6,7 @@ use crate::{
     ellipsoid::Ellipsoid,
     error::RendererError,
     fill_mesh::Bounds,
+    frame::window::Window,
     options::{DepthConvention, Frame, RendererOptions},
 };
 
@@ -167,6 +168,22 @@ impl Sight {
         let height_m =
             (self.extrusion.top_at_m(farthest_m)).max(-self.extrusion.bottom_at_m(farthest_m));
         (middle_m, on_surface_m + height_m)
+    }
+
+    /// What may be seen of the surface in `bounds`.
+    pub(crate) fn window_of(&self, bounds: &Bounds) -> Window {
+        let (middle_m, radius_m) = self.sphere(bounds);
+        Window::of_sphere(&self.clip_from_relative, middle_m, radius_m)
+    }
+
+    /// What may be seen of any surface.
+    pub(crate) fn globe_window(&self) -> Window {
+        let radius_m = self.ellipsoid.a_m.max(self.ellipsoid.b_m) + self.surface_m.1.max(0.0);
+        Window::of_sphere(
+            &self.clip_from_relative,
+            -self.eye_ecef_m,
+            radius_m + SLACK_M,
+        )
     }
 
     /// Lower bound, metres, of the distance from the eye to visible surface in `bounds`.

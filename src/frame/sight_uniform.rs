@@ -33,6 +33,7 @@ pub(crate) struct SightUniform {
     pub blocks: [u32; 4],
     pub counts: [u32; 4],
     pub bounds: [f32; 4],
+    pub window: [f32; 4],
 }
 
 impl SightUniform {
@@ -81,6 +82,7 @@ impl SightUniform {
             tiles: counted(tiles),
             blocks: counted(divided(tiles, BLOCK)),
             counts: [0; 4],
+            window: [-1.0, -1.0, 1.0, 1.0],
             bounds: [lowest_m as f32, highest_m as f32, 0.0, least_sine as f32],
         }
     }

@@ -10,10 +10,6 @@ use crate::{
     image::{Image, ImageId},
 };
 
-/// Texels along the longer side of what a pixel spans on an oblique image, over the shorter; where the
-/// device can.
-const ANISOTROPY: u16 = 8;
-
 /// All images of a renderer.
 pub(crate) struct ImageArrays {
     pub layout: wgpu::BindGroupLayout,
@@ -53,7 +49,6 @@ impl ImageArrays {
                 mag_filter: wgpu::FilterMode::Linear,
                 min_filter: wgpu::FilterMode::Linear,
                 mipmap_filter: wgpu::MipmapFilterMode::Linear,
-                anisotropy_clamp: ANISOTROPY,
                 ..Default::default()
             })
         };

@@ -27,13 +27,14 @@ impl StylePipelines {
         image_layout: &wgpu::BindGroupLayout,
     ) -> Self {
         let fragment = wgpu::ShaderStages::FRAGMENT;
+        let both = wgpu::ShaderStages::VERTEX_FRAGMENT;
         let read = wgpu::BindingType::Buffer {
             ty: wgpu::BufferBindingType::Storage { read_only: true },
             has_dynamic_offset: false,
             min_binding_size: None,
         };
         let style_layout = layout(device, "globefill styles", fragment, &[read; 2]);
-        let surface_layout = surface_layout(device, options.sample_count, fragment);
+        let surface_layout = surface_layout(device, options.sample_count, both);
         let groups = [layer_layout, &style_layout, &surface_layout, image_layout];
         let source = shaders::resolve_styled(options.sample_count);
         Self {
@@ -87,7 +88,10 @@ impl StylePipelines {
                 compilation_options: options.clone(),
                 buffers: &[],
             },
-            primitive: wgpu::PrimitiveState::default(),
+            primitive: wgpu::PrimitiveState {
+                topology: wgpu::PrimitiveTopology::TriangleStrip,
+                ..Default::default()
+            },
             depth_stencil: None,
             multisample: wgpu::MultisampleState {
                 count: samples,

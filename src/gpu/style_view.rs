@@ -122,7 +122,7 @@ impl StyleView {
         pass.set_bind_group(2, surface, &[]);
         for &array in &styled.arrays {
             pass.set_bind_group(3, images.group(array), &[]);
-            pass.draw(0..3, array..array + 1);
+            pass.draw(0..4, array..array + 1);
         }
     }
 }

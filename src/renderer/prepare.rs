@@ -294,7 +294,7 @@ pub(super) enum Choice {
 
 /// What a frame shows of one mesh.
 pub(super) struct Selected {
-    id: MeshId,
+    pub(super) id: MeshId,
     pub(super) sight: Sight,
-    selection: Selection,
+    pub(super) selection: Selection,
 }

@@ -13,7 +13,9 @@ use crate::{
     frame::placed::{AnglePlace, MapPlace, PatternPlace},
     frame::reference::Reference,
     frame::sight_uniform::SightUniform,
+    frame::window::Window,
     gpu::image_arrays::ImageArrays,
+    gpu::layer_tables::LayerTables,
     gpu::style_pipelines::StylePipelines,
     gpu::style_table::Needs,
     gpu::style_view::{StyleFrame, StyleView},
@@ -181,16 +183,48 @@ impl Renderer {
         let frame = &prepared.frame;
         let reference = Reference::new(sight.ellipsoid, frame.camera.eye_ecef_m);
         let depth = self.options.depth;
+        let tables = self.layers(choice)?;
+        let mut uniform = SightUniform::new(sight, &reference, depth, frame.size_px);
+        uniform.window = self.window(tables, selections).pixels(frame.size_px, 0.0);
         let with = StyleFrame {
-            tables: self.layers(choice)?,
+            tables,
             revision: self.revision,
-            uniform: SightUniform::new(sight, &reference, depth, frame.size_px),
+            uniform,
             reference,
         };
         let styles = view
             .styles
             .get_or_insert_with(|| StyleView::new(&self.device));
         Ok(styles.prepare(&self.device, queue, pipelines, &with))
+    }
+
+    /// What holds all fills of the layers that have styles.
+    fn window(&self, tables: &LayerTables, selections: &[Selected]) -> Window {
+        let mut window = Window::EMPTY;
+        for Selected {
+            id,
+            sight,
+            selection,
+        } in selections
+        {
+            let pieces = &self.meshes[id].mesh.pieces;
+            for (draws, _) in selection
+                .layers
+                .iter()
+                .zip(&tables.styles)
+                .filter(|(_, styles)| styles.is_some())
+            {
+                for (piece, _) in pieces
+                    .iter()
+                    .zip(&draws.codes[1..])
+                    .filter(|&(_, &code)| code != 0)
+                {
+                    window = window.joined(sight.window_of(&piece.bounds));
+                }
+            }
+            window = window.common(sight.globe_window());
+        }
+        window
     }
 
     /// Binds the depth that patterns are placed by.

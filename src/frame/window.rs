@@ -1,0 +1,155 @@
+//! Rectangles of the picture that hold what is drawn.
+
+use glam::{DMat4, DVec2, DVec3, UVec2, Vec4Swizzles as _};
+
+/// A rectangle in normalised device coordinates, −1 … 1 across the picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Window {
+    min: DVec2,
+    max: DVec2,
+}
+
+impl Window {
+    /// The whole picture.
+    pub(crate) const FULL: Self = Self {
+        min: DVec2::NEG_ONE,
+        max: DVec2::ONE,
+    };
+
+    /// Nothing.
+    pub(crate) const EMPTY: Self = Self {
+        min: DVec2::INFINITY,
+        max: DVec2::NEG_INFINITY,
+    };
+
+    /// What a sphere takes of the picture, or all of it if the sphere reaches the plane of the eye.
+    /// `middle_m` is relative to the eye, along the axes that `clip_from_relative` is from.
+    pub(crate) fn of_sphere(clip_from_relative: &DMat4, middle_m: DVec3, radius_m: f64) -> Self {
+        let rows = clip_from_relative.transpose();
+        let w_row = rows.w_axis.xyz();
+        let span = |row: DVec3| tangents(row, w_row, middle_m, radius_m);
+        match (span(rows.x_axis.xyz()), span(rows.y_axis.xyz())) {
+            (Some(x), Some(y)) => Self {
+                min: DVec2::new(x.0, y.0),
+                max: DVec2::new(x.1, y.1),
+            },
+            _ => Self::FULL,
+        }
+    }
+
+    /// The smallest rectangle that holds both.
+    pub(crate) fn joined(self, other: Self) -> Self {
+        Self {
+            min: self.min.min(other.min),
+            max: self.max.max(other.max),
+        }
+    }
+
+    /// What both have in common.
+    pub(crate) fn common(self, other: Self) -> Self {
+        Self {
+            min: self.min.max(other.min),
+            max: self.max.min(other.max),
+        }
+    }
+
+    /// The rectangle of whole pixels around it, `margin_px` wider on each side: least x and y, greatest x
+    /// and y. One without area is a point.
+    pub(crate) fn pixels(self, size_px: UVec2, margin_px: f64) -> [f32; 4] {
+        let Self { min, max } = self.common(Self::FULL);
+        if min.cmpgt(max).any() {
+            return [0.0; 4];
+        }
+        let half_px = 0.5 * size_px.as_dvec2();
+        // Half a pixel of room for rounding.
+        let room = DVec2::splat(0.5 + margin_px);
+        let least = ((min + 1.0) * half_px - room).floor() / half_px - 1.0;
+        let greatest = ((max + 1.0) * half_px + room).ceil() / half_px - 1.0;
+        let [left, below] = least.max(DVec2::NEG_ONE).as_vec2().to_array();
+        let [right, above] = greatest.min(DVec2::ONE).as_vec2().to_array();
+        [left, below, right, above]
+    }
+}
+
+/// The coordinates k at which the planes `row` · v = k `w_row` · v through the eye touch a sphere:
+/// ((`row` − k `w_row`) · middle)² = radius² |`row` − k `w_row`|². None if the sphere reaches w = 0.
+fn tangents(row: DVec3, w_row: DVec3, middle_m: DVec3, radius_m: f64) -> Option<(f64, f64)> {
+    let squared = radius_m * radius_m;
+    let (x, w) = (row.dot(middle_m), w_row.dot(middle_m));
+    let quadratic = w * w - squared * w_row.length_squared();
+    if w <= 0.0 || quadratic <= 0.0 {
+        return None;
+    }
+    let linear = x * w - squared * row.dot(w_row);
+    let constant = x * x - squared * row.length_squared();
+    let root = (linear * linear - quadratic * constant).max(0.0).sqrt();
+    Some(((linear - root) / quadratic, (linear + root) / quadratic))
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::{DMat3, DVec4};
+
+    use super::*;
+
+    /// A lens that is off its middle, turned about all axes.
+    fn lens() -> DMat4 {
+        let projection = DMat4::from_cols(
+            DVec4::new(1.3, 0.0, 0.0, 0.0),
+            DVec4::new(0.0, 2.1, 0.0, 0.0),
+            DVec4::new(0.2, -0.1, 0.0, -1.0),
+            DVec4::new(0.0, 0.0, 0.1, 0.0),
+        );
+        let rotation = DMat3::from_rotation_x(0.4) * DMat3::from_rotation_z(1.1);
+        projection * DMat4::from_mat3(rotation)
+    }
+
+    #[test]
+    fn windows_hold_spheres_closely() {
+        let lens = lens();
+        let back = lens.inverse();
+        for (at, radius_m) in [
+            (DVec3::new(0.1, 0.2, 0.3), 0.5),
+            (DVec3::new(-0.5, 0.4, 0.2), 2.0),
+        ] {
+            // A point five metres down the view axis, or so.
+            let ahead = back * DVec4::new(at.x, at.y, 0.02, 1.0);
+            let middle_m = ahead.xyz() / ahead.w;
+            let window = Window::of_sphere(&lens, middle_m, radius_m);
+            let mut seen = Window::EMPTY;
+            for step in 0..400 {
+                for turn in 0..400 {
+                    let (lat, lon) = (f64::from(step) / 400.0, f64::from(turn) / 400.0);
+                    let (sin, cos) = (lat * std::f64::consts::PI).sin_cos();
+                    let (east, north) = (lon * std::f64::consts::TAU).sin_cos();
+                    let point_m = middle_m + radius_m * DVec3::new(sin * north, sin * east, cos);
+                    let clip = lens * point_m.extend(1.0);
+                    assert!(clip.w > 0.0);
+                    let ndc = clip.xy() / clip.w;
+                    seen = seen.joined(Window { min: ndc, max: ndc });
+                }
+            }
+            let slack = (seen.min - window.min).min(window.max - seen.max);
+            assert!(slack.min_element() > -1e-12, "{window:?} {seen:?}");
+            assert!(slack.max_element() < 1e-3, "{window:?} {seen:?}");
+        }
+    }
+
+    #[test]
+    fn a_sphere_about_the_eye_takes_all() {
+        let window = Window::of_sphere(&lens(), DVec3::new(0.1, 0.0, 0.0), 1.0);
+        assert_eq!(window, Window::FULL);
+        assert_eq!(window.pixels(UVec2::new(7, 5), 0.0), [-1.0, -1.0, 1.0, 1.0]);
+    }
+
+    #[test]
+    fn windows_grow_to_whole_pixels_within_the_picture() {
+        let window = Window {
+            min: DVec2::new(-0.1, 0.99),
+            max: DVec2::new(0.1, 3.0),
+        };
+        let pixels = window.pixels(UVec2::new(20, 20), 0.0);
+        assert_eq!(pixels, [-0.2, 0.9, 0.2, 1.0]);
+        assert_eq!(Window::EMPTY.pixels(UVec2::ONE, 3.0), [0.0; 4]);
+    }
+}
