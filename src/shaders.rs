@@ -12,6 +12,9 @@ const PLANES_SEPARATE: &str = include_str!("../shaders/planes_separate.wgsl");
 const LAYER: &str = include_str!("../shaders/layer.wgsl");
 const RESOLVE: &str = include_str!("../shaders/resolve.wgsl");
 const SURFACE: &str = include_str!("../shaders/surface.wgsl");
+const PIXEL: &str = include_str!("../shaders/pixel.wgsl");
+const EDGE: &str = include_str!("../shaders/edge.wgsl");
+const STROKE: &str = include_str!("../shaders/stroke.wgsl");
 const SENSOR: &str = include_str!("../shaders/sensor.wgsl");
 const DEPTH: &str = include_str!("../shaders/depth.wgsl");
 const DEPTH_MULTISAMPLED: &str = include_str!("../shaders/depth_multisampled.wgsl");
@@ -63,6 +66,40 @@ fn depth(sample_count: u32) -> &'static str {
     }
 }
 
+/// The distances to the nearest boundaries.
+pub fn edge(sample_count: u32) -> String {
+    let surface = rebound(SURFACE, "sight", 3, 0);
+    let parts = [
+        EXTRUDE,
+        FACE,
+        &surface,
+        PIXEL,
+        depth(sample_count),
+        EDGE,
+    ];
+    parts.concat()
+}
+
+/// What reads those distances: functions without entry point or binding.
+pub fn stroke() -> String {
+    STROKE.to_owned()
+}
+
+/// A shader part with its uniform bound elsewhere, for programs that bind something else there.
+fn rebound(source: &str, uniform: &str, group: u32, binding: u32) -> String {
+    let declared = format!("var<uniform> {uniform}:");
+    source
+        .lines()
+        .map(|line| match line.find(&declared) {
+            Some(start) => {
+                let bound = &line[start..];
+                format!("@group({group}) @binding({binding}) {bound}\n")
+            }
+            None => format!("{line}\n"),
+        })
+        .collect()
+}
+
 /// Which sensors cover which tiles.
 pub fn bin_sensors(sample_count: u32) -> String {
     let depth = depth(sample_count);
@@ -99,6 +136,9 @@ pub fn all() -> Vec<(&'static str, String)> {
         ("copy_depth_multisampled", copy_depth(4)),
         ("resolve", resolve(1)),
         ("resolve_multisampled", resolve(4)),
+        ("edge", edge(1)),
+        ("edge_multisampled", edge(4)),
+        ("stroke", stroke()),
         ("bin_sensors", bin_sensors(1)),
         ("bin_sensors_multisampled", bin_sensors(4)),
         ("count_sensors", count_sensors(1)),
@@ -113,7 +153,8 @@ mod tests {
     use std::mem::{offset_of, size_of};
 
     use crate::{
-        frame::sensor_record::SensorRecord, frame::sight_uniform::SightUniform,
+        frame::edge_uniform::EdgeUniform, frame::sensor_record::SensorRecord,
+        frame::sight_uniform::SightUniform,
         gpu::gpu_mesh::ArcRecord, gpu::layer_tables::LayerHead, view::FrameUniform,
     };
 
@@ -201,6 +242,25 @@ mod tests {
         );
         assert_eq!(members, expected);
         assert_eq!(size, size_of::<SightUniform>());
+    }
+
+    #[test]
+    fn the_edge_uniform_has_the_layout_of_the_shader() {
+        let (members, size) = layout_of(&super::edge(1), "EdgeSight");
+        let expected = offsets!(
+            EdgeUniform: foot, foot_fraction, foot_remainder, axis, surface, code
+        );
+        assert_eq!(members, expected);
+        assert_eq!(size, size_of::<EdgeUniform>());
+    }
+
+    #[test]
+    fn the_surface_of_the_edge_pass_is_bound_apart_from_its_frame() {
+        for samples in [1, 4] {
+            let source = super::edge(samples);
+            let moved = "@group(3) @binding(0) var<uniform> sight: Sight;";
+            assert_eq!(source.matches(moved).count(), 1);
+        }
     }
 
     #[test]

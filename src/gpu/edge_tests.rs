@@ -1,0 +1,414 @@
+//! The edge pass against boundaries measured in f64.
+
+use glam::{DVec2, UVec2};
+use rayon::prelude::*;
+
+use crate::{
+    EdgeKind, FillMesh, FillStyle,
+    common::{
+        camera::Pose,
+        edge::TrueEdge,
+        figure::Figure,
+        headless::{Gpu, gpu},
+        pair_mesh::Pair,
+        scene::depth_texture,
+        surface::{Cast, DepthKind, Surface, Terrain},
+    },
+    ellipsoid::Ellipsoid,
+    frame::{
+        code::Mantissa,
+        edge_draws::{EdgeWants, LayerEdges},
+        layers::{Layering, Styled},
+        select::Selection,
+        sight::Sight,
+    },
+    gpu::{
+        count::Drawn,
+        edge_pipelines::EdgePipelines,
+        edge_view::{EdgeFrame, EdgeSubject, EdgeView, edge_cost},
+        gpu_mesh::GpuMesh,
+        pipelines::Pipelines,
+    },
+    options::{CountTechnique, Frame, HeightRange, RendererOptions},
+    view::{MeshView, Upload},
+};
+
+const SIZE: UVec2 = UVec2::new(112, 64);
+
+/// A texel as stroke.wgsl decodes it.
+#[derive(Clone, Copy, Debug)]
+struct Texel {
+    signed_m: f64,
+    across_m: f64,
+    along_m: f64,
+    sides: [u32; 2],
+    along: u32,
+}
+
+fn half(bits: u32) -> f64 {
+    let (exponent, fraction) = (bits >> 10 & 31, f64::from(bits & 1023) / 1024.0);
+    let magnitude = if exponent == 0 {
+        fraction * 2f64.powi(-14)
+    } else {
+        (1.0 + fraction) * 2f64.powi(exponent as i32 - 15)
+    };
+    if bits & 0x8000 == 0 { magnitude } else { -magnitude }
+}
+
+fn decoded([x, y, z, w]: [u32; 4]) -> Option<Texel> {
+    (z != u32::MAX).then(|| Texel {
+        signed_m: f32::from_bits(x).into(),
+        across_m: half(y & 0xffff).exp2(),
+        along_m: half(y >> 16).exp2(),
+        sides: [z & 0xffff, z >> 16],
+        along: w,
+    })
+}
+
+/// Draws the edges of both fills of a mesh, each asked for as far as `reach` says.
+fn draw(
+    gpu: &Gpu,
+    mesh: &FillMesh,
+    surface: &Surface,
+    reach: [f32; 2],
+    mirrored: bool,
+) -> Vec<Option<Texel>> {
+    let (device, queue) = (&gpu.device, &gpu.queue);
+    let options = RendererOptions {
+        depth: surface.range.convention(),
+        sample_count: surface.samples(),
+        ..Default::default()
+    };
+    let (_texture, depth) = depth_texture(gpu, surface, options.depth_format);
+    let (min_m, max_m) = surface.terrain.range_m();
+    let mut camera = surface.lens.camera();
+    if mirrored {
+        camera.clip_from_view.x_axis.x *= -1.0;
+    }
+    let frame = Frame {
+        terrain: HeightRange { min_m, max_m },
+        pixel_error: 0.0,
+        host_pixel_error: 0.0,
+        ..Frame::new(camera, surface.size_px())
+    };
+    let styles = vec![FillStyle::default(); mesh.fills.len()];
+    let styled = [Styled {
+        mesh,
+        styles: &styles,
+    }];
+    let layering =
+        Layering::assign(&styled, CountTechnique::Winding, Mantissa::Single).expect("fits");
+    let layers: Vec<Option<LayerEdges>> = layering
+        .layers
+        .iter()
+        .map(|layer| {
+            let mut reaches = vec![reach; layer.fills.len() + 1];
+            reaches[0] = [0.0; 2];
+            Some(LayerEdges {
+                code: layer.code,
+                reaches,
+            })
+        })
+        .collect();
+    let sight = Sight::new(mesh.ellipsoid, mesh.sag_m, &frame, &options).expect("valid");
+    let uploaded = GpuMesh::new(device, mesh);
+    let alongs = uploaded.alongs(device, mesh);
+    let wants = EdgeWants {
+        layers: &layers,
+        alongs: Some(&alongs.by_slot),
+    };
+    let selection =
+        Selection::with_edges(mesh, &layering.codes[0], layering.layers.len(), &sight, &wants);
+    let cost = edge_cost(&layers, std::iter::once(&selection));
+    println!("{cost:?}, {} refined", selection.patch.chords.len());
+
+    let pipelines = Pipelines::new(device, options);
+    let mut edge_pipelines = EdgePipelines::new(device, &pipelines, options);
+    let mut edges = EdgeView::default();
+    let subject = EdgeSubject {
+        gpu: &uploaded,
+        sight: &sight,
+        selection: &selection,
+    };
+    let asked = EdgeFrame {
+        size_px: frame.size_px,
+        depth: options.depth,
+        layers: &layers,
+        dashed: true,
+    };
+    edges.prepare(device, queue, &mut edge_pipelines, &asked, &[subject]);
+    let (again, replaced) =
+        edges.prepare(device, queue, &mut edge_pipelines, &asked, &[subject]);
+    assert_eq!((again, replaced), (0, false), "the same frame is free");
+    let mut view = MeshView::new(device, &pipelines);
+    let to = Upload {
+        device,
+        queue,
+        pipelines: &pipelines,
+        mesh: &uploaded,
+    };
+    view.upload(&to, &sight, selection);
+    let mut encoder = device.create_command_encoder(&Default::default());
+    let drawn = [Drawn {
+        gpu: &uploaded,
+        view: &view,
+    }];
+    edges.record(device, &edge_pipelines, &mut encoder, &depth, &drawn);
+    queue.submit([encoder.finish()]);
+    let target = edges.target(0).expect("edges were asked for");
+    read(gpu, target.texture()).into_iter().map(decoded).collect()
+}
+
+fn read(gpu: &Gpu, texture: &wgpu::Texture) -> Vec<[u32; 4]> {
+    let size = texture.size();
+    let row_bytes = (size.width * 16).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+    let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("readback"),
+        size: u64::from(row_bytes) * u64::from(size.height),
+        usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+        mapped_at_creation: false,
+    });
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    encoder.copy_texture_to_buffer(
+        texture.as_image_copy(),
+        wgpu::TexelCopyBufferInfo {
+            buffer: &buffer,
+            layout: wgpu::TexelCopyBufferLayout {
+                offset: 0,
+                bytes_per_row: Some(row_bytes),
+                rows_per_image: None,
+            },
+        },
+        size,
+    );
+    gpu.queue.submit([encoder.finish()]);
+    buffer.map_async(wgpu::MapMode::Read, .., |result| {
+        result.expect("the buffer can be mapped");
+    });
+    gpu.device
+        .poll(wgpu::PollType::wait_indefinitely())
+        .expect("the device answers");
+    let bytes = buffer.get_mapped_range(..).expect("it is mapped");
+    bytes
+        .chunks_exact(row_bytes as usize)
+        .flat_map(|row| {
+            row.chunks_exact(16)
+                .take(size.width as usize)
+                .map(bytemuck::pod_read_unaligned)
+        })
+        .collect()
+}
+
+/// The true boundaries of a pair, with the ids on either side.
+struct Truth {
+    figure: Figure,
+    edges: Vec<(TrueEdge, [u32; 2])>,
+}
+
+/// What is true at a pixel.
+struct Measured {
+    signed_m: f64,
+    /// Distance on the screen between the pixel's centre and the boundary, drawn at the height of the
+    /// ground there.
+    off_px: f64,
+    /// Metres a pixel, along the boundary as it is seen.
+    along_m: f64,
+    sides: [u32; 2],
+    /// Whether the nearest point is an end of an edge.
+    at_end: bool,
+    /// How much farther the next edge is.
+    ahead_m: f64,
+}
+
+impl Truth {
+    fn new(pair: &Pair) -> Self {
+        let figure = Figure::new(Ellipsoid::WGS84);
+        let walks = [
+            (pair.a, pair.b, [1, 2]),
+            (pair.b, pair.left, [1, 0]),
+            (pair.left, pair.a, [1, 0]),
+            (pair.b, pair.right, [0, 2]),
+            (pair.right, pair.a, [0, 2]),
+        ];
+        let edges = walks
+            .into_iter()
+            .flat_map(|(from, to, sides)| {
+                TrueEdge::between(&figure, pair.kind, from, to)
+                    .into_iter()
+                    .map(move |edge| (edge, sides))
+            })
+            .collect();
+        Self { figure, edges }
+    }
+
+    fn at(&self, surface: &Surface, pixel: usize) -> Option<Measured> {
+        let figure = &self.figure;
+        let point_m = surface.points_m[pixel]?;
+        let (foot, height_m) = figure.geodetic(point_m);
+        let foot_m = figure.ecef(foot, 0.0);
+        let mut nearest: Vec<_> = self
+            .edges
+            .iter()
+            .map(|(edge, sides)| (edge.nearest(figure, foot_m), edge, *sides))
+            .collect();
+        nearest.sort_by(|a, b| a.0.0.total_cmp(&b.0.0));
+        let ((off_m, t), edge, sides) = nearest[0];
+        let step = 1e-4;
+        let ahead = |t: f64, height_m| figure.ecef(edge.point(figure, t), height_m);
+        let (before, after) = ((t - step).max(0.0), (t + step).min(1.0));
+        let boundary_m = ahead(t, 0.0);
+        let left = figure
+            .normal(foot)
+            .cross(ahead(after, 0.0) - ahead(before, 0.0));
+        let side = (foot_m - boundary_m).dot(left).signum();
+        // The boundary on the screen near its nearest point, as a line.
+        let width = surface.size_px().x as usize;
+        let centre_px = DVec2::new((pixel % width) as f64, (pixel / width) as f64) + 0.5;
+        let project = |t: f64| surface.lens.project(ahead(t, height_m));
+        // About as long as the boundary is far.
+        let reach = (off_m / edge.radius_m).clamp(1e-9, 0.2);
+        let ends_px = [project((t - reach).max(0.0)), project((t + reach).min(1.0))];
+        let line_px = ends_px[1].0 - ends_px[0].0;
+        let off_px = (centre_px - project(t).0).perp_dot(line_px.normalize()).abs();
+        let along_m = ahead((t + reach).min(1.0), 0.0).distance(ahead((t - reach).max(0.0), 0.0))
+            / line_px.length();
+        Some(Measured {
+            signed_m: off_m * side,
+            off_px,
+            along_m,
+            sides,
+            at_end: t < 1e-9 || t > 1.0 - 1e-9,
+            ahead_m: nearest[1].0.0 - off_m,
+        })
+    }
+}
+
+/// The worst of a picture.
+#[derive(Debug, Default)]
+struct Worst {
+    edges: u32,
+    compared: u32,
+    signed_px: f64,
+    /// Of the distance on the screen: pixels, of up to 3 px away.
+    screen_px: f64,
+    along_ratio: f64,
+    missing: u32,
+    strangers: u32,
+    wrong_sides: u32,
+}
+
+fn compare(truth: &Truth, surface: &Surface, texels: &[Option<Texel>], reach: [f32; 2]) -> Worst {
+    let pixels: Vec<(Option<Measured>, &Option<Texel>)> = texels
+        .par_iter()
+        .enumerate()
+        .map(|(pixel, texel)| (truth.at(surface, pixel), texel))
+        .collect();
+    let mut worst = Worst::default();
+    let [metres, px] = reach.map(f64::from);
+    for (pixel, (measured, texel)) in pixels.iter().enumerate() {
+        let Some(measured) = measured else {
+            worst.strangers += u32::from(texel.is_some());
+            continue;
+        };
+        let plain = !measured.at_end && !surface.at_discontinuity(pixel);
+        let Some(texel) = texel else {
+            let within = measured.off_px < px && metres == 0.0 || measured.signed_m.abs() < metres;
+            worst.missing += u32::from(within && plain);
+            continue;
+        };
+        worst.edges += 1;
+        if !plain {
+            continue;
+        }
+        worst.compared += 1;
+        let off = (texel.signed_m.abs() - measured.signed_m.abs()).abs() / texel.across_m;
+        worst.signed_px = worst.signed_px.max(off);
+        if metres == 0.0 {
+            let off = (texel.signed_m.abs() / texel.across_m - measured.off_px).abs();
+            if measured.off_px < 3.0 {
+                worst.screen_px = worst.screen_px.max(off);
+            }
+            if measured.off_px > px + 1.2 {
+                worst.strangers += 1;
+            }
+        }
+        let ratio = (texel.along_m / measured.along_m).ln().abs();
+        if measured.off_px < 3.0 {
+            worst.along_ratio = worst.along_ratio.max(ratio);
+        }
+        // Where another boundary is not as near.
+        if measured.ahead_m > 0.2 * texel.across_m {
+            let wrong = texel.sides != measured.sides
+                || texel.signed_m.signum() != measured.signed_m.signum()
+                    && measured.signed_m.abs() > 0.05 * texel.across_m;
+            worst.wrong_sides += u32::from(wrong);
+        }
+    }
+    worst
+}
+
+/// Draws with both depth conventions and judges; answers what failed.
+fn check(
+    gpu: &Gpu,
+    pair: &Pair,
+    pose: Pose,
+    terrain: Terrain,
+    samples: u32,
+    reach: [f32; 2],
+) -> Vec<String> {
+    let mut failed = Vec::new();
+    let truth = Truth::new(pair);
+    let mesh = pair.mesh();
+    let cast = |samples| Cast::new(&truth.figure, &pose, SIZE, samples, terrain);
+    let centres = cast(1);
+    for depth in [DepthKind::Reversed, DepthKind::Standard] {
+        let expected = Surface::new(&centres, depth);
+        let drawn = Surface::new(&cast(samples), depth);
+        let texels = draw(gpu, &mesh, &drawn, reach, false);
+        let worst = compare(&truth, &expected, &texels, reach);
+        let view = format!(
+            "{:?} from {} m, pitch {}, {terrain:?}, {samples} samples, reach {reach:?}, {depth:?}",
+            pair.kind, pose.height_m, pose.pitch_deg
+        );
+        println!("{view}: {worst:?}");
+        let wrong = worst.missing + worst.strangers + worst.wrong_sides;
+        if worst.compared < 100 || worst.signed_px >= 1.0 / 16.0 || wrong > 0 {
+            failed.push(format!("{view}: {worst:?}"));
+        }
+    }
+    failed
+}
+
+fn pair(kind: EdgeKind, length_deg: f64) -> Pair {
+    Pair::about(kind, 10.0, 47.0, 60.0, length_deg)
+}
+
+/// Views of the middle of the common edge, from beside it.
+fn views(pair: &Pair, height_m: f64) -> [Pose; 3] {
+    let figure = Figure::new(Ellipsoid::WGS84);
+    let common = &TrueEdge::between(&figure, pair.kind, pair.a, pair.b)[0];
+    let middle = common.point(&figure, 0.5);
+    let aside_deg = (0.2 * height_m / 111_000.0).min(5.0);
+    let pose = Pose::nadir(middle.lon_deg + aside_deg, middle.lat_deg, height_m);
+    [pose, pose.turned(290.0, -35.0), pose.turned(200.0, -12.0)]
+}
+
+#[test]
+fn distances_are_those_to_the_true_boundary() {
+    let Some(gpu) = gpu() else { return };
+    let mut failed = Vec::new();
+    for (kind, height_m, length_deg) in [
+        (EdgeKind::Geodesic, 10.0, 1.0),
+        (EdgeKind::Rhumb, 1e3, 1.0),
+        (EdgeKind::Straight, 1e5, 2.0),
+        (EdgeKind::Geodesic, 2e7, 25.0),
+    ] {
+        let pair = pair(kind, length_deg);
+        // The limb alone is seen obliquely from far away.
+        let poses = if height_m < 1e6 { 3 } else { 1 };
+        for pose in &views(&pair, height_m)[..poses] {
+            failed.extend(check(gpu, &pair, *pose, Terrain::Bare, 1, [0.0, 6.0]));
+        }
+    }
+    assert!(failed.is_empty(), "{failed:#?}");
+}
