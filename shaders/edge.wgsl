@@ -222,6 +222,13 @@ fn vs_segment(
     return prism(Chord(a, b, rest.x, rest.yz), corner);
 }
 
+// A way on level ground as pixels to the right and down.
+fn pixels_of(way: vec3<f32>, span: Span) -> vec2<f32> {
+    let normal = cross(span.right, span.down);
+    let turned = vec2<f32>(dot(cross(way, span.down), normal), dot(cross(span.right, way), normal));
+    return turned / dot(normal, normal);
+}
+
 @fragment
 fn fs_edge(in: EdgeVertex) -> EdgeTexel {
     let pixel = vec2<u32>(in.position.xy);
@@ -238,26 +245,39 @@ fn fs_edge(in: EdgeVertex) -> EdgeTexel {
     let foot = place.from_foot + aside_px.x * span.right + aside_px.y * span.down;
 
     let from_start = foot - in.start.xyz;
-    let passed = dot(from_start, in.ahead.xyz);
+    let from_end = foot - in.end.xyz;
     let side = dot(from_start, in.left.xyz);
-    // Beyond an end the distance is that to the end. It has the same bits for all chords that end there.
+    // How the distance from the chord's line changes from pixel to pixel.
+    let slope = length(vec2<f32>(dot(in.left.xyz, span.right), dot(in.left.xyz, span.down)));
+    let area = length(cross(span.right, span.down));
+    // Which point of the chord is nearest: on the ground where metres are asked for, else on the screen,
+    // where pixels of obliquely seen ground are counted.
+    let on_ground = in.end.w > 0.0;
+    let ahead_px = pixels_of(in.ahead.xyz, span);
+    let start_px = pixels_of(from_start, span);
+    let unit_m = select(1.0 / length(ahead_px), 1.0, on_ground);
+    let passed = select(
+        dot(start_px, ahead_px) * unit_m * unit_m,
+        dot(from_start, in.ahead.xyz),
+        on_ground,
+    );
     let beyond = max(max(-passed, passed - in.start.w), 0.0);
-    let from_end = select(foot - in.end.xyz, from_start, passed < 0.0);
+    // Beyond an end the distance is that to the end. It has the same bits for all chords that end there.
+    let to_end = select(from_end, from_start, passed < 0.0);
     var off = abs(side);
     var away = in.left.xyz * select(1.0, -1.0, side < 0.0);
+    var off_px = off / slope;
     if beyond > 0.0 {
-        off = length(from_end);
-        away = from_end / off;
+        off = length(to_end);
+        away = to_end / off;
+        off_px = length(pixels_of(to_end, span));
     }
-
-    // How the distance changes from pixel to pixel.
-    let slope = length(vec2<f32>(dot(away, span.right), dot(away, span.down)));
-    let area = length(cross(span.right, span.down));
     // On level ground, pixels counted from here to the boundary are of this many metres on average.
     let boundary = distance - off * dot(edge_sight.axis.xyz, away);
     let foreshortened = clamp(boundary / distance, 1.0 / FARTHEST, FARTHEST);
     // Wide strokes in metres end far from the boundary: what counts is a pixel here.
-    let across = slope * select(foreshortened, 1.0, in.end.w > 0.0);
+    let here = select(slope, off / off_px, beyond > 0.0);
+    let across = here * select(foreshortened, 1.0, on_ground);
 
     let limit = in.end.w + (in.ahead.w + 1.0) * across;
     if strays(place, 0.0) || !(off <= limit) {
@@ -271,10 +291,11 @@ fn fs_edge(in: EdgeVertex) -> EdgeTexel {
     var out: EdgeTexel;
     out.texel = vec4<u32>(
         bitcast<u32>(select(off, -off, side < 0.0)),
-        pack2x16float(log2(vec2<f32>(across, area / slope))),
+        pack2x16float(log2(vec2<f32>(across, area / here))),
         in.sides.x,
         along,
     );
-    out.depth = min((off + BEYOND * beyond) / ((1.0 + BEYOND) * limit), 1.0);
+    let penalty = BEYOND * beyond * here / select(area / slope, here, on_ground);
+    out.depth = min((off + penalty) / ((1.0 + BEYOND) * limit), 1.0);
     return out;
 }

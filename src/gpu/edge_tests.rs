@@ -205,19 +205,18 @@ struct Truth {
     edges: Vec<(TrueEdge, [u32; 2])>,
 }
 
-/// What is true at a pixel.
+/// What is true of a pixel and one edge.
+#[derive(Clone, Copy, Debug)]
 struct Measured {
     signed_m: f64,
-    /// Distance on the screen between the pixel's centre and the boundary, drawn at the height of the
-    /// ground there.
+    /// Distance on the screen between the pixel's centre and the edge, drawn at the height of the ground
+    /// there.
     off_px: f64,
-    /// Metres a pixel, along the boundary as it is seen.
+    /// Metres a pixel, along the edge as it is seen.
     along_m: f64,
     sides: [u32; 2],
-    /// Whether the nearest point is an end of an edge.
+    /// Whether the nearest point is an end.
     at_end: bool,
-    /// How much farther the next edge is.
-    ahead_m: f64,
 }
 
 impl Truth {
@@ -241,110 +240,126 @@ impl Truth {
         Self { figure, edges }
     }
 
-    fn at(&self, surface: &Surface, pixel: usize) -> Option<Measured> {
+    /// All edges, measured from a pixel; none in the sky.
+    fn at(&self, surface: &Surface, pixel: usize) -> Option<Vec<Measured>> {
         let figure = &self.figure;
-        let point_m = surface.points_m[pixel]?;
-        let (foot, height_m) = figure.geodetic(point_m);
+        let (foot, height_m) = figure.geodetic(surface.points_m[pixel]?);
         let foot_m = figure.ecef(foot, 0.0);
-        let mut nearest: Vec<_> = self
-            .edges
-            .iter()
-            .map(|(edge, sides)| (edge.nearest(figure, foot_m), edge, *sides))
-            .collect();
-        nearest.sort_by(|a, b| a.0.0.total_cmp(&b.0.0));
-        let ((off_m, t), edge, sides) = nearest[0];
-        let step = 1e-4;
-        let ahead = |t: f64, height_m| figure.ecef(edge.point(figure, t), height_m);
-        let (before, after) = ((t - step).max(0.0), (t + step).min(1.0));
-        let boundary_m = ahead(t, 0.0);
-        let left = figure
-            .normal(foot)
-            .cross(ahead(after, 0.0) - ahead(before, 0.0));
-        let side = (foot_m - boundary_m).dot(left).signum();
-        // The boundary on the screen near its nearest point, as a line.
         let width = surface.size_px().x as usize;
         let centre_px = DVec2::new((pixel % width) as f64, (pixel / width) as f64) + 0.5;
-        let project = |t: f64| surface.lens.project(ahead(t, height_m));
-        // About as long as the boundary is far.
-        let reach = (off_m / edge.radius_m).clamp(1e-9, 0.2);
-        let ends_px = [project((t - reach).max(0.0)), project((t + reach).min(1.0))];
-        let line_px = ends_px[1].0 - ends_px[0].0;
-        let off_px = (centre_px - project(t).0).perp_dot(line_px.normalize()).abs();
-        let along_m = ahead((t + reach).min(1.0), 0.0).distance(ahead((t - reach).max(0.0), 0.0))
-            / line_px.length();
-        Some(Measured {
-            signed_m: off_m * side,
-            off_px,
-            along_m,
-            sides,
-            at_end: t < 1e-9 || t > 1.0 - 1e-9,
-            ahead_m: nearest[1].0.0 - off_m,
-        })
+        let measure = |(edge, sides): &(TrueEdge, [u32; 2])| {
+            let (off_m, t) = edge.nearest(figure, foot_m);
+            let ahead_m = |t: f64| figure.ecef(edge.point(figure, t), 0.0);
+            let [before_m, after_m] = [(t - 1e-4).max(0.0), (t + 1e-4).min(1.0)].map(ahead_m);
+            let left = figure.normal(foot).cross(after_m - before_m);
+            // On the screen: Newton's method from the nearest point on the ground.
+            let project = |t: f64| {
+                let at_m = figure.ecef(edge.point(figure, t), height_m);
+                let (at_px, distance_m) = surface.lens.project(at_m);
+                (distance_m > 0.0).then_some(at_px)
+            };
+            let step = (0.01 * off_m / edge.radius_m).clamp(1e-9, 1e-3);
+            let per_t = |t: f64| Some((project(t + step)? - project(t - step)?) / (2.0 * step));
+            let on_screen = (0..30).try_fold(t, |t, _| {
+                let way_px = per_t(t)?;
+                let change = (centre_px - project(t)?).dot(way_px) / way_px.length_squared();
+                Some((t + change).clamp(0.0, 1.0))
+            });
+            let off_px = on_screen
+                .and_then(|t| Some((centre_px - project(t)?).length()))
+                .unwrap_or(f64::INFINITY);
+            let along_m = on_screen.and_then(per_t).map_or(f64::NAN, |way_px| {
+                let t = on_screen.unwrap_or(t);
+                ahead_m(t + step).distance(ahead_m(t - step)) / (2.0 * step) / way_px.length()
+            });
+            Measured {
+                signed_m: off_m * (foot_m - ahead_m(t)).dot(left).signum(),
+                off_px,
+                along_m,
+                sides: *sides,
+                at_end: [Some(t), on_screen]
+                    .into_iter()
+                    .flatten()
+                    .any(|t| !(1e-7..=1.0 - 1e-7).contains(&t)),
+            }
+        };
+        Some(self.edges.iter().map(measure).collect())
     }
 }
 
 /// The worst of a picture.
 #[derive(Debug, Default)]
 struct Worst {
-    edges: u32,
     compared: u32,
     signed_px: f64,
-    /// Of the distance on the screen: pixels, of up to 3 px away.
+    /// Of the distance on the screen.
     screen_px: f64,
+    /// Of that where less than 3 px.
+    near_px: f64,
     along_ratio: f64,
     missing: u32,
     strangers: u32,
     wrong_sides: u32,
+    not_nearest: u32,
 }
 
 fn compare(truth: &Truth, surface: &Surface, texels: &[Option<Texel>], reach: [f32; 2]) -> Worst {
-    let pixels: Vec<(Option<Measured>, &Option<Texel>)> = texels
+    let pixels: Vec<(Option<Vec<Measured>>, &Option<Texel>)> = texels
         .par_iter()
         .enumerate()
         .map(|(pixel, texel)| (truth.at(surface, pixel), texel))
         .collect();
     let mut worst = Worst::default();
-    let [metres, px] = reach.map(f64::from);
+    let reach = reach.map(f64::from);
     for (pixel, (measured, texel)) in pixels.iter().enumerate() {
-        let Some(measured) = measured else {
-            worst.strangers += u32::from(texel.is_some());
-            continue;
-        };
-        let plain = !measured.at_end && !surface.at_discontinuity(pixel);
-        let Some(texel) = texel else {
-            let within = measured.off_px < px && metres == 0.0 || measured.signed_m.abs() < metres;
-            worst.missing += u32::from(within && plain);
-            continue;
-        };
-        worst.edges += 1;
-        if !plain {
-            continue;
-        }
-        worst.compared += 1;
-        let off = (texel.signed_m.abs() - measured.signed_m.abs()).abs() / texel.across_m;
-        worst.signed_px = worst.signed_px.max(off);
-        if metres == 0.0 {
-            let off = (texel.signed_m.abs() / texel.across_m - measured.off_px).abs();
-            if measured.off_px < 3.0 {
-                worst.screen_px = worst.screen_px.max(off);
+        match (measured, texel) {
+            (None, texel) => worst.strangers += u32::from(texel.is_some()),
+            _ if surface.at_discontinuity(pixel) => {}
+            (Some(edges), None) => {
+                let [metres, px] = reach;
+                let within = |edge: &Measured| {
+                    let on_screen = metres == 0.0 && edge.off_px < px;
+                    !edge.at_end && (on_screen || edge.signed_m.abs() < metres)
+                };
+                worst.missing += u32::from(edges.iter().any(within));
             }
-            if measured.off_px > px + 1.2 {
-                worst.strangers += 1;
-            }
-        }
-        let ratio = (texel.along_m / measured.along_m).ln().abs();
-        if measured.off_px < 3.0 {
-            worst.along_ratio = worst.along_ratio.max(ratio);
-        }
-        // Where another boundary is not as near.
-        if measured.ahead_m > 0.2 * texel.across_m {
-            let wrong = texel.sides != measured.sides
-                || texel.signed_m.signum() != measured.signed_m.signum()
-                    && measured.signed_m.abs() > 0.05 * texel.across_m;
-            worst.wrong_sides += u32::from(wrong);
+            (Some(edges), Some(texel)) => worst.judge(edges, texel, reach),
         }
     }
     worst
+}
+
+impl Worst {
+    fn judge(&mut self, edges: &[Measured], texel: &Texel, [metres, px]: [f64; 2]) {
+        // The texel tells of one of the edges: of that whose distance it has.
+        let off_m = |edge: &&Measured| (edge.signed_m.abs() - texel.signed_m.abs()).abs();
+        let edge = edges
+            .iter()
+            .min_by(|a, b| off_m(a).total_cmp(&off_m(b)))
+            .expect("there are edges");
+        if edge.at_end || edge.off_px.is_infinite() {
+            return;
+        }
+        self.compared += 1;
+        self.signed_px = self.signed_px.max(off_m(&edge) / texel.across_m);
+        let flipped = texel.signed_m.signum() != edge.signed_m.signum()
+            && edge.signed_m.abs() > 0.05 * texel.across_m;
+        let twins = edges.iter().filter(|twin| off_m(twin) < 0.05 * texel.across_m);
+        self.wrong_sides += u32::from((texel.sides != edge.sides || flipped) && twins.count() == 1);
+        if metres == 0.0 {
+            let off_px = texel.signed_m.abs() / texel.across_m;
+            let wrong_px = (off_px - edge.off_px).abs();
+            self.screen_px = self.screen_px.max(wrong_px);
+            self.strangers += u32::from(edge.off_px > px + 1.2);
+            let nearer = |other: &Measured| !other.at_end && other.off_px < off_px - 0.3;
+            self.not_nearest += u32::from(edges.iter().any(nearer));
+            if edge.off_px < 3.0 {
+                self.near_px = self.near_px.max(wrong_px);
+                let ratio = (texel.along_m / edge.along_m).ln().abs();
+                self.along_ratio = self.along_ratio.max(ratio);
+            }
+        }
+    }
 }
 
 /// Draws with both depth conventions and judges; answers what failed.
@@ -371,7 +386,8 @@ fn check(
             pair.kind, pose.height_m, pose.pitch_deg
         );
         println!("{view}: {worst:?}");
-        let wrong = worst.missing + worst.strangers + worst.wrong_sides;
+        let wrong =
+            worst.missing + worst.strangers + worst.wrong_sides + worst.not_nearest;
         if worst.compared < 100 || worst.signed_px >= 1.0 / 16.0 || wrong > 0 {
             failed.push(format!("{view}: {worst:?}"));
         }
