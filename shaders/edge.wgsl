@@ -41,7 +41,7 @@ const ABOVE: u32 = 0x31e3u;
 const SHORTEST_M: f32 = 2e-5;
 // By how much a chord that a pixel lies beyond is put behind one that ends at the same vertex.
 const BEYOND: f32 = 1e-3;
-// Farther than this times the distance of a pixel, or nearer, boundaries are not placed on the screen.
+// The most by which pixels towards the horizon are taken to reach farther.
 const FARTHEST: f32 = 4.0;
 
 struct Chord {
@@ -222,11 +222,79 @@ fn vs_segment(
     return prism(Chord(a, b, rest.x, rest.yz), corner);
 }
 
-// A way on level ground as pixels to the right and down.
+// The point of a chord that is nearest to a pixel.
+struct Nearest {
+    // How far it is, metres.
+    off: f32,
+    // Metres a pixel, from here to it and along the chord.
+    across: f32,
+    along: f32,
+    // Metres from the chord's start to where the chord's line is nearest, and by how much that is beyond
+    // an end.
+    passed: f32,
+    beyond: f32,
+}
+
+// A change of a place on level ground, from pixel to pixel.
+fn change_of(gradient: vec3<f32>, span: Span) -> vec2<f32> {
+    return vec2<f32>(dot(gradient, span.right), dot(gradient, span.down));
+}
+
+// A way on level ground as pixels to the right and down, as large as they are here.
 fn pixels_of(way: vec3<f32>, span: Span) -> vec2<f32> {
     let normal = cross(span.right, span.down);
     let turned = vec2<f32>(dot(cross(way, span.down), normal), dot(cross(span.right, way), normal));
     return turned / dot(normal, normal);
+}
+
+fn nearest_on_ground(in: EdgeVertex, foot: vec3<f32>, span: Span) -> Nearest {
+    let from_start = foot - in.start.xyz;
+    let side = dot(from_start, in.left.xyz);
+    let passed = dot(from_start, in.ahead.xyz);
+    let beyond = max(max(-passed, passed - in.start.w), 0.0);
+    var off = abs(side);
+    var away = in.left.xyz;
+    if beyond > 0.0 {
+        // The same bits for all chords that end there.
+        let to_end = select(foot - in.end.xyz, from_start, passed < 0.0);
+        off = length(to_end);
+        away = to_end / off;
+    }
+    let across = length(change_of(away, span));
+    let area = length(cross(span.right, span.down));
+    return Nearest(off, across, area / across, passed, beyond);
+}
+
+// Level ground is projected to the screen: the inverse of the distance along the view axis is linear there,
+// and so is a distance from a line divided by that distance.
+fn nearest_on_screen(in: EdgeVertex, foot: vec3<f32>, span: Span, distance: f32) -> Nearest {
+    let from_start = foot - in.start.xyz;
+    let side = dot(from_start, in.left.xyz);
+    let receding = change_of(edge_sight.axis.xyz, span) / distance;
+    let slope = change_of(in.left.xyz, span) - side * receding;
+    var across = length(slope);
+    // To the nearest point of the chord's line, in pixels and on the ground, where lengths are greater by
+    // 1 / nearer. Beyond the horizon there is no such point.
+    let aim_px = -side / (across * across) * slope;
+    let nearer = max(1.0 - dot(receding, aim_px), 1.0 / 64.0);
+    let aim = span.right * aim_px.x + span.down * aim_px.y;
+    let passed = dot(from_start + aim / nearer, in.ahead.xyz);
+    let beyond = max(max(-passed, passed - in.start.w), 0.0);
+    let line_px = vec2<f32>(-slope.y, slope.x) / across;
+    let line = (span.right * line_px.x + span.down * line_px.y) * nearer + aim * dot(receding, line_px);
+    let along = abs(dot(line, in.ahead.xyz)) / (nearer * nearer);
+    var off = abs(side);
+    var beyond_px = 0.0;
+    if beyond > 0.0 {
+        // The same bits for all chords that end there.
+        let to_end = select(foot - in.end.xyz, from_start, passed < 0.0);
+        let end_distance = max(distance - dot(edge_sight.axis.xyz, to_end), distance / 64.0);
+        let off_px = length(pixels_of(to_end, span)) * distance / end_distance;
+        beyond_px = sqrt(max(off_px * off_px - dot(aim_px, aim_px), 0.0));
+        off = length(to_end);
+        across = off / off_px;
+    }
+    return Nearest(off, across, along, passed, beyond_px * across);
 }
 
 @fragment
@@ -244,58 +312,30 @@ fn fs_edge(in: EdgeVertex) -> EdgeTexel {
     let aside_px = vec2<f32>(0.5) - sample_px(0u);
     let foot = place.from_foot + aside_px.x * span.right + aside_px.y * span.down;
 
-    let from_start = foot - in.start.xyz;
-    let from_end = foot - in.end.xyz;
-    let side = dot(from_start, in.left.xyz);
-    // How the distance from the chord's line changes from pixel to pixel.
-    let slope = length(vec2<f32>(dot(in.left.xyz, span.right), dot(in.left.xyz, span.down)));
-    let area = length(cross(span.right, span.down));
-    // Which point of the chord is nearest: on the ground where metres are asked for, else on the screen,
-    // where pixels of obliquely seen ground are counted.
-    let on_ground = in.end.w > 0.0;
-    let ahead_px = pixels_of(in.ahead.xyz, span);
-    let start_px = pixels_of(from_start, span);
-    let unit_m = select(1.0 / length(ahead_px), 1.0, on_ground);
-    let passed = select(
-        dot(start_px, ahead_px) * unit_m * unit_m,
-        dot(from_start, in.ahead.xyz),
-        on_ground,
-    );
-    let beyond = max(max(-passed, passed - in.start.w), 0.0);
-    // Beyond an end the distance is that to the end. It has the same bits for all chords that end there.
-    let to_end = select(from_end, from_start, passed < 0.0);
-    var off = abs(side);
-    var away = in.left.xyz * select(1.0, -1.0, side < 0.0);
-    var off_px = off / slope;
-    if beyond > 0.0 {
-        off = length(to_end);
-        away = to_end / off;
-        off_px = length(pixels_of(to_end, span));
+    var near: Nearest;
+    // Metres are measured on the ground, pixels on the screen.
+    if in.end.w > 0.0 {
+        near = nearest_on_ground(in, foot, span);
+    } else {
+        near = nearest_on_screen(in, foot, span, distance);
     }
-    // On level ground, pixels counted from here to the boundary are of this many metres on average.
-    let boundary = distance - off * dot(edge_sight.axis.xyz, away);
-    let foreshortened = clamp(boundary / distance, 1.0 / FARTHEST, FARTHEST);
-    // Wide strokes in metres end far from the boundary: what counts is a pixel here.
-    let here = select(slope, off / off_px, beyond > 0.0);
-    let across = here * select(foreshortened, 1.0, on_ground);
-
-    let limit = in.end.w + (in.ahead.w + 1.0) * across;
-    if strays(place, 0.0) || !(off <= limit) {
+    let limit = in.end.w + (in.ahead.w + 1.0) * near.across;
+    if strays(place, 0.0) || !(near.off <= limit) {
         discard;
     }
     var along = 0u;
     if DASHED {
-        let share = clamp(passed / in.start.w, 0.0, 1.0);
+        let share = clamp(near.passed / in.start.w, 0.0, 1.0);
         along = in.sides.y + u32(share * f32(in.sides.z - in.sides.y) + 0.5);
     }
+    let side = dot(foot - in.start.xyz, in.left.xyz);
     var out: EdgeTexel;
     out.texel = vec4<u32>(
-        bitcast<u32>(select(off, -off, side < 0.0)),
-        pack2x16float(log2(vec2<f32>(across, area / here))),
+        bitcast<u32>(select(near.off, -near.off, side < 0.0)),
+        pack2x16float(log2(vec2<f32>(near.across, near.along))),
         in.sides.x,
         along,
     );
-    let penalty = BEYOND * beyond * here / select(area / slope, here, on_ground);
-    out.depth = min((off + penalty) / ((1.0 + BEYOND) * limit), 1.0);
+    out.depth = min((near.off + BEYOND * near.beyond) / ((1.0 + BEYOND) * limit), 1.0);
     return out;
 }

@@ -69,14 +69,7 @@ fn depth(sample_count: u32) -> &'static str {
 /// The distances to the nearest boundaries.
 pub fn edge(sample_count: u32) -> String {
     let surface = rebound(SURFACE, "sight", 3, 0);
-    let parts = [
-        EXTRUDE,
-        FACE,
-        &surface,
-        PIXEL,
-        depth(sample_count),
-        EDGE,
-    ];
+    let parts = [EXTRUDE, FACE, &surface, PIXEL, depth(sample_count), EDGE];
     parts.concat()
 }
 
@@ -154,8 +147,8 @@ mod tests {
 
     use crate::{
         frame::edge_uniform::EdgeUniform, frame::sensor_record::SensorRecord,
-        frame::sight_uniform::SightUniform,
-        gpu::gpu_mesh::ArcRecord, gpu::layer_tables::LayerHead, view::FrameUniform,
+        frame::sight_uniform::SightUniform, gpu::gpu_mesh::ArcRecord, gpu::layer_tables::LayerHead,
+        view::FrameUniform,
     };
 
     /// Members of a WGSL struct with their offsets, bytes, and the size of the whole.

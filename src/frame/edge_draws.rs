@@ -76,7 +76,11 @@ impl ArcEdges {
             Some(edges) => mesh
                 .arcs
                 .iter()
-                .map(|arc| edges.reach_of(arc, layer, shown).is_seen(&arc.bounds, sight))
+                .map(|arc| {
+                    edges
+                        .reach_of(arc, layer, shown)
+                        .is_seen(&arc.bounds, sight)
+                })
                 .collect(),
             None => Vec::new(),
         };
@@ -187,7 +191,13 @@ impl EdgeSegments {
         segments
     }
 
-    fn add(&mut self, mesh: &FillMesh, patch: &Patch, chord: &RefinedChord, alongs: Option<&[u32]>) {
+    fn add(
+        &mut self,
+        mesh: &FillMesh,
+        patch: &Patch,
+        chord: &RefinedChord,
+        alongs: Option<&[u32]>,
+    ) {
         let points: Vec<FixedVertex> = patch.polyline(chord).collect();
         let places = match alongs {
             Some(alongs) => {
@@ -262,4 +272,159 @@ fn way_steps(a: FixedVertex, b: FixedVertex) -> DVec3 {
         let fraction = |vertex: FixedVertex| (vertex[3] >> (10 * axis)) & 1023;
         f64::from(b[axis]) - f64::from(a[axis]) + f64::from(fraction(b) - fraction(a)) / 1024.0
     }))
+}
+
+#[cfg(all(test, feature = "countries"))]
+mod tests {
+    use glam::{DMat3, DMat4, DVec4, UVec2};
+
+    use super::*;
+    use crate::{
+        CountTechnique, Ellipsoid, FillStyle, LonLat, MeshOptions,
+        countries::Dataset,
+        frame::{
+            code::Mantissa,
+            layers::{Layering, Styled},
+            select::Selection,
+        },
+        gpu::fixed_point::encode,
+        options::{Camera, Frame, RendererOptions},
+    };
+
+    fn countries() -> FillMesh {
+        let countries = Dataset::Countries110m.countries();
+        let regions: Vec<_> = countries.into_iter().map(|c| c.region).collect();
+        FillMesh::build(&regions, &MeshOptions::default()).expect("embedded data is sound")
+    }
+
+    fn looking_down(mesh: &FillMesh, at: LonLat, height_m: f64) -> Sight {
+        let up = Ellipsoid::WGS84.normal(at);
+        let right = up.any_orthonormal_vector();
+        let scale = 1.0 / 30f64.to_radians().tan();
+        let camera = Camera {
+            eye_ecef_m: Ellipsoid::WGS84.ecef(at, height_m),
+            view_from_ecef: DMat3::from_cols(right, up.cross(right), up).transpose(),
+            clip_from_view: DMat4::from_cols(
+                DVec4::new(scale, 0.0, 0.0, 0.0),
+                DVec4::new(0.0, scale, 0.0, 0.0),
+                DVec4::new(0.0, 0.0, 0.0, -1.0),
+                DVec4::new(0.0, 0.0, 0.1 * height_m, 0.0),
+            ),
+        };
+        let frame = Frame {
+            pixel_error: 0.0,
+            ..Frame::new(camera, UVec2::splat(720))
+        };
+        Sight::new(
+            mesh.ellipsoid,
+            mesh.sag_m,
+            &frame,
+            &RendererOptions::default(),
+        )
+        .expect("valid")
+    }
+
+    /// Every chord of an arc that is drawn is drawn once: as it is stored, or as pieces that lead from its
+    /// first vertex to its last. Chords of arcs that ask for no edges are not drawn.
+    #[test]
+    fn chords_and_pieces_cover_each_arc_once() {
+        let mesh = countries();
+        let styles = vec![FillStyle::default(); mesh.fills.len()];
+        let styled = [Styled {
+            mesh: &mesh,
+            styles: &styles,
+        }];
+        let layering =
+            Layering::assign(&styled, CountTechnique::Winding, Mantissa::Single).expect("fits");
+        let alongs = places_along(&mesh);
+        let layers: Vec<_> = layering
+            .layers
+            .iter()
+            .map(|layer| {
+                // Every third fill asks for edges.
+                let asks = |id: usize| [0.0, if id % 3 == 1 { 4.0 } else { 0.0 }];
+                Some(LayerEdges {
+                    code: layer.code,
+                    reaches: (0..=layer.fills.len()).map(asks).collect(),
+                })
+            })
+            .collect();
+        let wants = EdgeWants {
+            layers: &layers,
+            alongs: Some(&alongs),
+        };
+        let (mut stored, mut refined, mut left_out) = (0, 0, 0);
+        for (at, height_m) in [
+            (LonLat::new(10.0, 50.0), 2e7),
+            (LonLat::new(13.0, 48.5), 5e4),
+            (LonLat::new(6.8, 49.2), 1_000.0),
+        ] {
+            let sight = looking_down(&mesh, at, height_m);
+            let codes = &layering.codes[0];
+            let selection = Selection::with_edges(&mesh, codes, layers.len(), &sight, &wants);
+            let edges = ArcEdges::new(&mesh, codes, &sight, &wants);
+            for (layer, draws) in selection.layers.iter().enumerate() {
+                for (index, arc) in mesh.arcs.iter().enumerate() {
+                    for vertex in arc.first_vertex..arc.first_vertex + arc.vertex_count - 1 {
+                        let first = slot(index as u32, vertex);
+                        let runs = &draws.edges.chords;
+                        let as_stored = runs
+                            .iter()
+                            .filter(|run| run.start <= first && first + 1 < run.end)
+                            .count();
+                        let of_chord = |chord: &&RefinedChord| {
+                            (chord.arc, chord.vertex) == (index as u32, vertex)
+                        };
+                        let pieces = selection.patch.chords.iter().position(|c| of_chord(&c));
+                        let as_pieces = pieces.map_or(0, |chord| {
+                            let starts = &selection.segments.starts;
+                            let range = starts[chord] as usize..starts[chord + 1] as usize;
+                            let runs = draws.edges.segments.iter();
+                            let drawn = runs.filter(|run| {
+                                !range.is_empty() && run.contains(&(range.start as u32))
+                            });
+                            let drawn = drawn.count();
+                            if drawn > 0 {
+                                let ends = [vertex, vertex + 1]
+                                    .map(|vertex| encode(mesh.vertices[vertex as usize]));
+                                let places = [first, first + 1].map(|slot| alongs[slot as usize]);
+                                assert_leads(&selection.segments.pieces[range], ends, places);
+                            }
+                            drawn
+                        });
+                        // Arcs whose pieces are hidden may be left out by the selection.
+                        let ids_ask = edges.wanted(layer, index);
+                        assert!(as_stored + as_pieces <= 1);
+                        if !ids_ask && as_stored + as_pieces > 0 {
+                            panic!("arc {index} asks for no edges from {height_m} m");
+                        }
+                        stored += as_stored;
+                        refined += as_pieces;
+                        left_out += usize::from(as_stored + as_pieces == 0);
+                        let horizon = height_m > 1e6;
+                        assert!(
+                            horizon || !ids_ask || as_stored + as_pieces == 1,
+                            "arc {index}"
+                        );
+                    }
+                }
+            }
+        }
+        assert!(
+            stored > 100 && refined > 0 && left_out > 100,
+            "{stored} {refined} {left_out}"
+        );
+    }
+
+    fn assert_leads(pieces: &[EdgeSegment], ends: [FixedVertex; 2], places: [u32; 2]) {
+        assert_eq!(pieces[0].ends[0], ends[0]);
+        assert_eq!(pieces[pieces.len() - 1].ends[1], ends[1]);
+        assert_eq!(pieces[0].along[0], places[0]);
+        assert_eq!(pieces[pieces.len() - 1].along[1], places[1]);
+        for pair in pieces.windows(2) {
+            assert_eq!(pair[0].ends[1], pair[1].ends[0]);
+            assert_eq!(pair[0].along[1], pair[1].along[0]);
+            assert!(pair[0].along[0] <= pair[0].along[1]);
+        }
+    }
 }

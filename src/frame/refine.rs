@@ -93,8 +93,7 @@ impl Patch {
         self.add_ears(&columns);
         self.add_slivers(&columns[0], &columns[columns.len() - 1]);
         let first_point = self.points.len() as u32;
-        self.points
-            .extend(columns.iter().map(|column| column.base));
+        self.points.extend(columns.iter().map(|column| column.base));
         self.chords.push(RefinedChord {
             arc,
             vertex,

@@ -223,12 +223,7 @@ fn add_wall_run(runs: &mut Vec<Range<u32>>, slots: Range<u32>, starts_arc: bool)
     }
 }
 
-fn patch_runs(
-    mesh: &FillMesh,
-    codes: &[u32],
-    arc_seen: &[bool],
-    patch: &Patch,
-) -> Vec<PatchRun> {
+fn patch_runs(mesh: &FillMesh, codes: &[u32], arc_seen: &[bool], patch: &Patch) -> Vec<PatchRun> {
     let mut runs: Vec<PatchRun> = Vec::new();
     for chord in &patch.chords {
         let arc = &mesh.arcs[chord.arc as usize];

@@ -94,7 +94,11 @@ impl EdgePipelines {
     }
 
     fn make(&self, device: &wgpu::Device, key: EdgeKey) -> wgpu::RenderPipeline {
-        let entry = if key.refined { "vs_segment" } else { "vs_chord" };
+        let entry = if key.refined {
+            "vs_segment"
+        } else {
+            "vs_chord"
+        };
         let attributes = wgpu::vertex_attr_array![0 => Sint32x4, 1 => Sint32x4, 2 => Uint32x4];
         let segments = [Some(wgpu::VertexBufferLayout {
             array_stride: size_of::<EdgeSegment>() as u64,

@@ -52,7 +52,11 @@ fn half(bits: u32) -> f64 {
     } else {
         (1.0 + fraction) * 2f64.powi(exponent as i32 - 15)
     };
-    if bits & 0x8000 == 0 { magnitude } else { -magnitude }
+    if bits & 0x8000 == 0 {
+        magnitude
+    } else {
+        -magnitude
+    }
 }
 
 fn decoded([x, y, z, w]: [u32; 4]) -> Option<Texel> {
@@ -117,8 +121,13 @@ fn draw(
         layers: &layers,
         alongs: Some(&alongs.by_slot),
     };
-    let selection =
-        Selection::with_edges(mesh, &layering.codes[0], layering.layers.len(), &sight, &wants);
+    let selection = Selection::with_edges(
+        mesh,
+        &layering.codes[0],
+        layering.layers.len(),
+        &sight,
+        &wants,
+    );
     let cost = edge_cost(&layers, std::iter::once(&selection));
     println!("{cost:?}, {} refined", selection.patch.chords.len());
 
@@ -137,8 +146,7 @@ fn draw(
         dashed: true,
     };
     edges.prepare(device, queue, &mut edge_pipelines, &asked, &[subject]);
-    let (again, replaced) =
-        edges.prepare(device, queue, &mut edge_pipelines, &asked, &[subject]);
+    let (again, replaced) = edges.prepare(device, queue, &mut edge_pipelines, &asked, &[subject]);
     assert_eq!((again, replaced), (0, false), "the same frame is free");
     let mut view = MeshView::new(device, &pipelines);
     let to = Upload {
@@ -156,7 +164,10 @@ fn draw(
     edges.record(device, &edge_pipelines, &mut encoder, &depth, &drawn);
     queue.submit([encoder.finish()]);
     let target = edges.target(0).expect("edges were asked for");
-    read(gpu, target.texture()).into_iter().map(decoded).collect()
+    read(gpu, target.texture())
+        .into_iter()
+        .map(decoded)
+        .collect()
 }
 
 fn read(gpu: &Gpu, texture: &wgpu::Texture) -> Vec<[u32; 4]> {
@@ -344,7 +355,9 @@ impl Worst {
         self.signed_px = self.signed_px.max(off_m(&edge) / texel.across_m);
         let flipped = texel.signed_m.signum() != edge.signed_m.signum()
             && edge.signed_m.abs() > 0.05 * texel.across_m;
-        let twins = edges.iter().filter(|twin| off_m(twin) < 0.05 * texel.across_m);
+        let twins = edges
+            .iter()
+            .filter(|twin| off_m(twin) < 0.05 * texel.across_m);
         self.wrong_sides += u32::from((texel.sides != edge.sides || flipped) && twins.count() == 1);
         if metres == 0.0 {
             let off_px = texel.signed_m.abs() / texel.across_m;
@@ -386,8 +399,7 @@ fn check(
             pair.kind, pose.height_m, pose.pitch_deg
         );
         println!("{view}: {worst:?}");
-        let wrong =
-            worst.missing + worst.strangers + worst.wrong_sides + worst.not_nearest;
+        let wrong = worst.missing + worst.strangers + worst.wrong_sides + worst.not_nearest;
         if worst.compared < 100 || worst.signed_px >= 1.0 / 16.0 || wrong > 0 {
             failed.push(format!("{view}: {worst:?}"));
         }

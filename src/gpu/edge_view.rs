@@ -300,10 +300,7 @@ impl EdgeMesh {
         let reference = Reference::new(sight.ellipsoid, sight.eye_ecef_m);
         let rays = SightUniform::new(sight, &reference, to.frame.depth, to.frame.size_px);
         // Uniforms never grow, so their bindings stay.
-        let mut bytes = self
-            .sight
-            .write(device, queue, bytemuck::bytes_of(&rays))
-            .0;
+        let mut bytes = self.sight.write(device, queue, bytemuck::bytes_of(&rays)).0;
         let pieces = bytemuck::cast_slice(&subject.selection.segments.pieces);
         bytes += self.segments.write(device, queue, pieces).0;
         self.layers.resize_with(to.layers.len(), || None);
