@@ -325,7 +325,7 @@ fn compare(truth: &Truth, surface: &Surface, texels: &[Option<Texel>], reach: [f
     for (pixel, (measured, texel)) in pixels.iter().enumerate() {
         match (measured, texel) {
             (None, texel) => worst.strangers += u32::from(texel.is_some()),
-            _ if surface.at_discontinuity(pixel) => {}
+            _ if near_sky(surface, pixel) => {}
             (Some(edges), None) => {
                 let [metres, px] = reach;
                 let within = |edge: &Measured| {
@@ -338,6 +338,20 @@ fn compare(truth: &Truth, surface: &Surface, texels: &[Option<Texel>], reach: [f
         }
     }
     worst
+}
+
+/// Whether a pixel lies so near to the limb that the ground within reach is not level.
+fn near_sky(surface: &Surface, pixel: usize) -> bool {
+    const NEAR_PX: i64 = 12;
+    let [width, height] = surface.size_px().as_i64vec2().to_array();
+    let (x, y) = (pixel as i64 % width, pixel as i64 / width);
+    (-1..=1).any(|dx| {
+        (-1..=1).any(|dy| {
+            let (x, y) = (x + dx * NEAR_PX, y + dy * NEAR_PX);
+            let inside = (0..width).contains(&x) && (0..height).contains(&y);
+            inside && surface.points_m[(y * width + x) as usize].is_none()
+        })
+    })
 }
 
 impl Worst {
@@ -439,4 +453,44 @@ fn distances_are_those_to_the_true_boundary() {
         }
     }
     assert!(failed.is_empty(), "{failed:#?}");
+}
+
+#[test]
+fn metres_samples_and_terrain_are_measured_alike() {
+    let Some(gpu) = gpu() else { return };
+    let pair = pair(EdgeKind::Geodesic, 1.0);
+    let mut failed = Vec::new();
+    let [nadir, oblique, _] = views(&pair, 1e3);
+    failed.extend(check(gpu, &pair, nadir, Terrain::Bare, 4, [0.0, 4.0]));
+    failed.extend(check(gpu, &pair, nadir, Terrain::Bare, 1, [100.0, 0.0]));
+    failed.extend(check(gpu, &pair, oblique, Terrain::Bare, 1, [100.0, 0.0]));
+    let raised = Pose {
+        height_m: 5e3,
+        ..nadir
+    };
+    let plateau = Terrain::Plateau { height_m: 4e3 };
+    failed.extend(check(gpu, &pair, raised, plateau, 1, [0.0, 4.0]));
+    assert!(failed.is_empty(), "{failed:#?}");
+}
+
+/// A mirrored projection draws the same prisms: as many pixels have edges as without.
+#[test]
+fn mirrored_projections_show_edges_too() {
+    let Some(gpu) = gpu() else { return };
+    let pair = pair(EdgeKind::Geodesic, 1.0);
+    let [pose, ..] = views(&pair, 1e3);
+    let figure = Figure::new(Ellipsoid::WGS84);
+    // Looking straight down from the same height all over, depth is the same when mirrored.
+    let surface = Surface::new(
+        &Cast::new(&figure, &pose, SIZE, 1, Terrain::Bare),
+        DepthKind::Reversed,
+    );
+    let [plain, mirrored] = [false, true].map(|mirrored| {
+        let texels = draw(gpu, &pair.mesh(), &surface, [0.0, 4.0], mirrored);
+        texels.iter().flatten().count()
+    });
+    assert!(
+        plain > 100 && plain.abs_diff(mirrored) < plain / 50,
+        "{plain} and {mirrored}"
+    );
 }
