@@ -155,6 +155,13 @@ pub mod style;
 pub mod view;
 pub mod zone;
 
+// For the integration tests' common parts, which tests of inner passes use as well.
+#[cfg(test)]
+extern crate self as globefill;
+#[cfg(test)]
+#[path = "../tests/common/mod.rs"]
+mod common;
+
 mod boundary;
 mod frame;
 mod gpu;

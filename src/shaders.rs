@@ -20,6 +20,9 @@ const PICTURE: &str = include_str!("../shaders/picture.wgsl");
 const RESOLVE_STYLED: &str = include_str!("../shaders/resolve_styled.wgsl");
 const SEEN: &str = include_str!("../shaders/seen.wgsl");
 const SURFACE: &str = include_str!("../shaders/surface.wgsl");
+const PIXEL: &str = include_str!("../shaders/pixel.wgsl");
+const EDGE: &str = include_str!("../shaders/edge.wgsl");
+const STROKE: &str = include_str!("../shaders/stroke.wgsl");
 const SENSOR: &str = include_str!("../shaders/sensor.wgsl");
 const DEPTH: &str = include_str!("../shaders/depth.wgsl");
 const DEPTH_MULTISAMPLED: &str = include_str!("../shaders/depth_multisampled.wgsl");
@@ -95,6 +98,33 @@ fn depth(sample_count: u32) -> &'static str {
     }
 }
 
+/// The distances to the nearest boundaries.
+pub fn edge(sample_count: u32) -> String {
+    let surface = rebound(SURFACE, "sight", 3, 0);
+    let parts = [EXTRUDE, FACE, &surface, PIXEL, depth(sample_count), EDGE];
+    parts.concat()
+}
+
+/// What reads those distances: functions without entry point or binding.
+pub fn stroke() -> String {
+    STROKE.to_owned()
+}
+
+/// A shader part with its uniform bound elsewhere, for programs that bind something else there.
+fn rebound(source: &str, uniform: &str, group: u32, binding: u32) -> String {
+    let declared = format!("var<uniform> {uniform}:");
+    source
+        .lines()
+        .map(|line| match line.find(&declared) {
+            Some(start) => {
+                let bound = &line[start..];
+                format!("@group({group}) @binding({binding}) {bound}\n")
+            }
+            None => format!("{line}\n"),
+        })
+        .collect()
+}
+
 /// Which sensors cover which tiles.
 pub fn bin_sensors(sample_count: u32) -> String {
     let depth = depth(sample_count);
@@ -135,6 +165,9 @@ pub fn all() -> Vec<(&'static str, String)> {
         ("resolve_styled_multisampled", resolve_styled(4)),
         ("pick", pick(1)),
         ("pick_multisampled", pick(4)),
+        ("edge", edge(1)),
+        ("edge_multisampled", edge(4)),
+        ("stroke", stroke()),
         ("bin_sensors", bin_sensors(1)),
         ("bin_sensors_multisampled", bin_sensors(4)),
         ("count_sensors", count_sensors(1)),
@@ -149,9 +182,10 @@ mod tests {
     use std::mem::{offset_of, size_of};
 
     use crate::{
-        frame::placed::Placed, frame::sensor_record::SensorRecord,
-        frame::sight_uniform::SightUniform, gpu::gpu_mesh::ArcRecord, gpu::layer_tables::LayerHead,
-        gpu::pick_pipeline::AnswerHead, gpu::style_table::StyleRecord, view::FrameUniform,
+        frame::edge_uniform::EdgeUniform, frame::placed::Placed,
+        frame::sensor_record::SensorRecord, frame::sight_uniform::SightUniform,
+        gpu::gpu_mesh::ArcRecord, gpu::layer_tables::LayerHead, gpu::pick_pipeline::AnswerHead,
+        gpu::style_table::StyleRecord, view::FrameUniform,
     };
 
     /// Members of a WGSL struct with their offsets, bytes, and the size of the whole.
@@ -275,6 +309,25 @@ mod tests {
         for (name, bit) in needs {
             let expected = format!("const NEEDS_{name}: u32 = {bit}u;");
             assert!(source.contains(&expected), "{expected}");
+        }
+    }
+
+    #[test]
+    fn the_edge_uniform_has_the_layout_of_the_shader() {
+        let (members, size) = layout_of(&super::edge(1), "EdgeSight");
+        let expected = offsets!(
+            EdgeUniform: foot, foot_fraction, foot_remainder, axis, surface, code
+        );
+        assert_eq!(members, expected);
+        assert_eq!(size, size_of::<EdgeUniform>());
+    }
+
+    #[test]
+    fn the_surface_of_the_edge_pass_is_bound_apart_from_its_frame() {
+        for samples in [1, 4] {
+            let source = super::edge(samples);
+            let moved = "@group(3) @binding(0) var<uniform> sight: Sight;";
+            assert_eq!(source.matches(moved).count(), 1);
         }
     }
 

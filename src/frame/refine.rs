@@ -35,6 +35,8 @@ pub(crate) struct Patch {
     pub indices: Vec<u32>,
     /// The refined chords, in mesh order.
     pub chords: Vec<RefinedChord>,
+    /// Vertices on the true edge, chord after chord, each from its first to its last.
+    pub points: Vec<u32>,
 }
 
 /// One chord whose wall is left out, and the triangles in its place.
@@ -45,9 +47,19 @@ pub(crate) struct RefinedChord {
     pub vertex: u32,
     pub first_index: u32,
     pub index_count: u32,
+    pub first_point: u32,
+    pub point_count: u32,
 }
 
 impl Patch {
+    /// The surface points that stand for a refined chord, from its first vertex to its last.
+    pub(crate) fn polyline(&self, chord: &RefinedChord) -> impl Iterator<Item = FixedVertex> {
+        let first = chord.first_point as usize;
+        self.points[first..first + chord.point_count as usize]
+            .iter()
+            .map(|&point| self.vertices[point as usize])
+    }
+
     /// Refines what `sight` needs of the arc.
     pub(crate) fn refine_arc(&mut self, mesh: &FillMesh, arc_index: u32, sight: &Sight) {
         let arc = &mesh.arcs[arc_index as usize];
@@ -80,11 +92,15 @@ impl Patch {
         }
         self.add_ears(&columns);
         self.add_slivers(&columns[0], &columns[columns.len() - 1]);
+        let first_point = self.points.len() as u32;
+        self.points.extend(columns.iter().map(|column| column.base));
         self.chords.push(RefinedChord {
             arc,
             vertex,
             first_index,
             index_count: self.indices.len() as u32 - first_index,
+            first_point,
+            point_count: columns.len() as u32,
         });
     }
 

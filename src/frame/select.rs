@@ -3,7 +3,11 @@
 use std::ops::Range;
 
 use crate::{
-    fill_mesh::FillMesh, frame::code::PlaneSums, frame::layers::PieceCode, frame::refine::Patch,
+    fill_mesh::FillMesh,
+    frame::code::PlaneSums,
+    frame::edge_draws::{ArcEdges, EdgeDraws, EdgeSegments, EdgeWants},
+    frame::layers::PieceCode,
+    frame::refine::Patch,
     frame::sight::Sight,
 };
 
@@ -13,6 +17,8 @@ pub(crate) struct Selection {
     pub layers: Vec<LayerDraws>,
     /// Finer walls in the place of chords near the eye.
     pub patch: Patch,
+    /// The pieces of refined chords whose edges are wanted.
+    pub segments: EdgeSegments,
     pub fills_drawn: u32,
     pub fills_culled: u32,
 }
@@ -26,6 +32,7 @@ pub(crate) struct LayerDraws {
     /// Boundary slots of wall strips.
     pub walls: Vec<Range<u32>>,
     pub patches: Vec<PatchRun>,
+    pub edges: EdgeDraws,
 }
 
 /// Contiguous triangles of pieces with one code.
@@ -56,6 +63,17 @@ impl Selection {
         layer_count: usize,
         sight: &Sight,
     ) -> Self {
+        Self::with_edges(mesh, codes, layer_count, sight, &EdgeWants::default())
+    }
+
+    /// Like [`Self::of`], with the boundaries that the edge pass draws.
+    pub(crate) fn with_edges(
+        mesh: &FillMesh,
+        codes: &[Option<PieceCode>],
+        layer_count: usize,
+        sight: &Sight,
+        wants: &EdgeWants<'_>,
+    ) -> Self {
         let shown: Vec<Option<PieceCode>> = mesh
             .pieces
             .iter()
@@ -69,12 +87,15 @@ impl Selection {
             .iter()
             .map(|arc| !sight.outside_side_plane(&arc.bounds))
             .collect();
+        let edges = ArcEdges::new(mesh, &shown, sight, wants);
         for (index, arc) in mesh.arcs.iter().enumerate() {
             let shown_on = |side: Option<u32>| side.and_then(|piece| shown[piece as usize]);
-            if arc_seen[index] && shown_on(arc.left) != shown_on(arc.right) {
+            let seen = arc_seen[index] || edges.any(index);
+            if seen && shown_on(arc.left) != shown_on(arc.right) {
                 selection.patch.refine_arc(mesh, index as u32, sight);
             }
         }
+        selection.segments = EdgeSegments::new(mesh, &selection.patch, &edges, wants);
         selection.layers = (0..layer_count)
             .map(|layer| {
                 let in_layer: Vec<u32> = std::iter::once(0)
@@ -86,7 +107,13 @@ impl Selection {
                 LayerDraws {
                     caps: cap_runs(mesh, &in_layer, sight),
                     walls: wall_runs(mesh, &in_layer, &arc_seen, &selection.patch),
-                    patches: patch_runs(mesh, &in_layer, &selection.patch),
+                    patches: patch_runs(mesh, &in_layer, &arc_seen, &selection.patch),
+                    edges: EdgeDraws {
+                        chords: slot_runs(mesh, &selection.patch, |arc| edges.wanted(layer, arc)),
+                        segments: selection
+                            .segments
+                            .runs(&selection.patch, |arc| edges.wanted(layer, arc)),
+                    },
                     codes: in_layer,
                 }
             })
@@ -156,13 +183,20 @@ fn cap_runs(mesh: &FillMesh, codes: &[u32], sight: &Sight) -> Vec<CapRun> {
 }
 
 fn wall_runs(mesh: &FillMesh, codes: &[u32], arc_seen: &[bool], patch: &Patch) -> Vec<Range<u32>> {
+    slot_runs(mesh, patch, |index| {
+        let arc = &mesh.arcs[index];
+        arc_seen[index] && code_of(codes, arc.left) != code_of(codes, arc.right)
+    })
+}
+
+/// The slots of the arcs that are drawn, without their refined chords.
+fn slot_runs(mesh: &FillMesh, patch: &Patch, drawn: impl Fn(usize) -> bool) -> Vec<Range<u32>> {
     let mut runs: Vec<Range<u32>> = Vec::new();
     let mut refined = patch.chords.iter().peekable();
     for (index, arc) in (0..).zip(&mesh.arcs) {
         let mut start = arc.first_vertex;
         let end = arc.first_vertex + arc.vertex_count;
-        let weighs = code_of(codes, arc.left) != code_of(codes, arc.right);
-        let drawn = weighs && arc_seen[index as usize];
+        let drawn = drawn(index as usize);
         while let Some(chord) = refined.next_if(|chord| chord.arc == index) {
             if drawn {
                 let slots = slot(index, start)..slot(index, chord.vertex + 1);
@@ -189,11 +223,13 @@ fn add_wall_run(runs: &mut Vec<Range<u32>>, slots: Range<u32>, starts_arc: bool)
     }
 }
 
-fn patch_runs(mesh: &FillMesh, codes: &[u32], patch: &Patch) -> Vec<PatchRun> {
+fn patch_runs(mesh: &FillMesh, codes: &[u32], arc_seen: &[bool], patch: &Patch) -> Vec<PatchRun> {
     let mut runs: Vec<PatchRun> = Vec::new();
     for chord in &patch.chords {
         let arc = &mesh.arcs[chord.arc as usize];
-        if code_of(codes, arc.left) == code_of(codes, arc.right) {
+        // Arcs out of sight are refined for the edges within their reach alone.
+        let weighs = code_of(codes, arc.left) != code_of(codes, arc.right);
+        if !weighs || !arc_seen[chord.arc as usize] {
             continue;
         }
         let indices = chord.first_index..chord.first_index + chord.index_count;

@@ -159,7 +159,7 @@ impl Sight {
     }
 
     /// A sphere around everything in `bounds` at any height drawn: middle relative to the eye, radius.
-    fn sphere(&self, bounds: &Bounds) -> (DVec3, f64) {
+    pub(crate) fn sphere(&self, bounds: &Bounds) -> (DVec3, f64) {
         let radii_m = self.ellipsoid.radii_m();
         let middle_m = bounds.axis * radii_m - self.eye_ecef_m;
         let reach = 2.0 * (0.5 * bounds.radius_rad.min(std::f64::consts::PI)).sin();

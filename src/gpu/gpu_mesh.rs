@@ -1,8 +1,13 @@
 //! A mesh on the GPU: written once, when inserted.
 
+use std::sync::OnceLock;
+
 use wgpu::util::DeviceExt as _;
 
-use crate::{fill_mesh::FillMesh, frame::select::slot, gpu::fixed_point::encode};
+use crate::{
+    fill_mesh::FillMesh, frame::edge_draws::places_along, frame::select::slot,
+    gpu::fixed_point::encode,
+};
 
 /// Boundary slots that share an entry of `arc_at`; the same in extrude.wgsl.
 const BLOCK: usize = 16;
@@ -17,6 +22,16 @@ pub(crate) struct GpuMesh {
     pub arcs: wgpu::Buffer,
     /// Vertex indices of the cap triangles.
     pub cap_indices: wgpu::Buffer,
+    #[allow(dead_code, reason = "drawn once styles ask for edges")]
+    /// Made when dashes are first wanted.
+    alongs: OnceLock<Alongs>,
+}
+
+#[allow(dead_code, reason = "drawn once styles ask for edges")]
+/// How far along its arc each boundary slot lies, steps of 1/64 m.
+pub(crate) struct Alongs {
+    pub by_slot: Vec<u32>,
+    pub buffer: wgpu::Buffer,
 }
 
 impl GpuMesh {
@@ -56,7 +71,33 @@ impl GpuMesh {
                 bytemuck::cast_slice(&caps),
                 wgpu::BufferUsages::INDEX,
             ),
+            alongs: OnceLock::new(),
         }
+    }
+
+    #[allow(dead_code, reason = "drawn once styles ask for edges")]
+    /// Places along the arcs of `mesh`, which this is the upload of: 4 bytes a boundary vertex or arc,
+    /// on both sides, from the first call on.
+    pub(crate) fn alongs(&self, device: &wgpu::Device, mesh: &FillMesh) -> &Alongs {
+        self.alongs.get_or_init(|| {
+            let by_slot = places_along(mesh);
+            let buffer = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                label: Some("globefill places along arcs"),
+                contents: if by_slot.is_empty() {
+                    &[0; 4]
+                } else {
+                    bytemuck::cast_slice(&by_slot)
+                },
+                usage: wgpu::BufferUsages::STORAGE,
+            });
+            Alongs { by_slot, buffer }
+        })
+    }
+
+    #[allow(dead_code, reason = "drawn once styles ask for edges")]
+    /// The places, if dashes were ever wanted.
+    pub(crate) fn known_alongs(&self) -> Option<&Alongs> {
+        self.alongs.get()
     }
 }
 

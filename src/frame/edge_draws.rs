@@ -1,0 +1,426 @@
+//! Which boundaries the edge pass draws, and the pieces of those that were refined.
+
+use std::ops::Range;
+
+use glam::DVec3;
+
+use crate::{
+    fill_mesh::{Arc, Bounds, FillMesh},
+    frame::code::Code,
+    frame::layers::PieceCode,
+    frame::refine::{Patch, RefinedChord},
+    frame::select::slot,
+    frame::sight::Sight,
+    gpu::fixed_point::FixedVertex,
+};
+
+/// Steps in a metre along an arc; as in stroke.wgsl.
+const STEPS_PER_M: f64 = 64.0;
+/// Pixels may be that many times larger than `Sight::pixel_rad`: off the axes, and where they are
+/// oblong.
+const LARGEST_PIXEL: f64 = 4.0;
+
+/// The edges of a layer that are asked for.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct LayerEdges {
+    /// The code of the layer.
+    pub code: Code,
+    /// By id, 0 for none: how far on both sides of a fill's boundary distances are asked for, metres
+    /// and pixels, which add up; both 0 for fills that ask for none. One more than there are fills.
+    pub reaches: Vec<[f32; 2]>,
+}
+
+/// The edges that are asked for of a mesh.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct EdgeWants<'a> {
+    /// By layer; may be empty for none at all.
+    pub layers: &'a [Option<LayerEdges>],
+    /// By boundary slot: places along the arcs, where dashes are wanted.
+    pub alongs: Option<&'a [u32]>,
+}
+
+/// Edges of one mesh in one layer.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct EdgeDraws {
+    /// Boundary slots as runs of arcs, without refined chords. The last slot of a run starts no chord.
+    pub chords: Vec<Range<u32>>,
+    /// Pieces of refined chords: positions in [`Selection::segments`](super::select::Selection).
+    pub segments: Vec<Range<u32>>,
+}
+
+/// A piece of a refined chord, as the edge pass reads it.
+#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+#[repr(C)]
+pub(crate) struct EdgeSegment {
+    pub ends: [FixedVertex; 2],
+    pub arc: u32,
+    /// Places of the ends along the arc; 0 unless dashes are wanted.
+    pub along: [u32; 2],
+    pub padding: u32,
+}
+
+/// How far the edges of each arc reach, in each layer.
+pub(crate) struct ArcEdges {
+    /// By layer, then by arc: whether they are drawn. Empty for layers without edges.
+    wanted: Vec<Vec<bool>>,
+}
+
+impl ArcEdges {
+    pub(crate) fn new(
+        mesh: &FillMesh,
+        shown: &[Option<PieceCode>],
+        sight: &Sight,
+        wants: &EdgeWants<'_>,
+    ) -> Self {
+        let in_layer = |(layer, edges): (usize, &Option<LayerEdges>)| match edges {
+            Some(edges) => mesh
+                .arcs
+                .iter()
+                .map(|arc| {
+                    edges
+                        .reach_of(arc, layer, shown)
+                        .is_seen(&arc.bounds, sight)
+                })
+                .collect(),
+            None => Vec::new(),
+        };
+        Self {
+            wanted: wants.layers.iter().enumerate().map(in_layer).collect(),
+        }
+    }
+
+    /// Whether a layer draws the edges of an arc.
+    pub(crate) fn wanted(&self, layer: usize, arc: usize) -> bool {
+        let wanted = self.wanted.get(layer).and_then(|arcs| arcs.get(arc));
+        wanted.is_some_and(|&wanted| wanted)
+    }
+
+    /// Whether any layer does.
+    pub(crate) fn any(&self, arc: usize) -> bool {
+        (0..self.wanted.len()).any(|layer| self.wanted(layer, arc))
+    }
+}
+
+impl LayerEdges {
+    fn reach_of(&self, arc: &Arc, layer: usize, shown: &[Option<PieceCode>]) -> Reach {
+        let ids = [arc.left, arc.right].map(|side| {
+            let code = side.and_then(|piece| shown[piece as usize]);
+            code.filter(|code| code.layer == layer)
+                .map_or(0, |code| id_of(&self.code, code.packed))
+        });
+        if ids[0] == ids[1] {
+            return Reach::default();
+        }
+        let [a, b] = ids.map(|id| self.reaches[id as usize].map(f64::from));
+        Reach {
+            metres: a[0].max(b[0]),
+            pixels: a[1].max(b[1]),
+        }
+    }
+}
+
+/// The id of a packed code; as in edge.wgsl.
+fn id_of(code: &Code, packed: u32) -> u32 {
+    packed.to_le_bytes()[..code.digits as usize]
+        .iter()
+        .rev()
+        .fold(0, |id, &digit| id * code.base + u32::from(digit))
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+struct Reach {
+    metres: f64,
+    pixels: f64,
+}
+
+impl Reach {
+    /// Whether some of what lies within reach of `bounds` may be seen.
+    fn is_seen(self, bounds: &Bounds, sight: &Sight) -> bool {
+        if self.metres.max(self.pixels) <= 0.0 {
+            return false;
+        }
+        let (middle_m, radius_m) = sight.sphere(bounds);
+        let radius_m = radius_m + self.metres;
+        // On the screen, beside the picture: whatever the slant of the ground.
+        let pixel_m = LARGEST_PIXEL * sight.pixel_rad * (middle_m.length() + radius_m);
+        let margin_m = radius_m + (self.pixels + 1.0) * pixel_m;
+        if sight
+            .side_planes
+            .iter()
+            .any(|inward| inward.dot(middle_m) < -margin_m)
+        {
+            return false;
+        }
+        // On the ground: at the horizon pixels reach as far as it is curved.
+        let radius_m = sight.ellipsoid.b_m;
+        let falling_m = (2.0 * (self.pixels + 1.0) * pixel_m * radius_m).sqrt();
+        let widened = Bounds {
+            radius_rad: bounds.radius_rad + 1.1 * (self.metres + falling_m) / radius_m,
+            ..*bounds
+        };
+        !sight.beyond_horizon(&widened)
+    }
+}
+
+/// The pieces of the refined chords of one mesh whose edges are drawn.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct EdgeSegments {
+    pub pieces: Vec<EdgeSegment>,
+    /// Where the pieces of each refined chord start; one entry more than there are chords, or none.
+    starts: Vec<u32>,
+}
+
+impl EdgeSegments {
+    pub(crate) fn new(
+        mesh: &FillMesh,
+        patch: &Patch,
+        edges: &ArcEdges,
+        wants: &EdgeWants<'_>,
+    ) -> Self {
+        let mut segments = Self::default();
+        if edges.wanted.iter().all(Vec::is_empty) {
+            return segments;
+        }
+        segments.starts.push(0);
+        for chord in &patch.chords {
+            if edges.any(chord.arc as usize) {
+                segments.add(mesh, patch, chord, wants.alongs);
+            }
+            segments.starts.push(segments.pieces.len() as u32);
+        }
+        segments
+    }
+
+    fn add(
+        &mut self,
+        mesh: &FillMesh,
+        patch: &Patch,
+        chord: &RefinedChord,
+        alongs: Option<&[u32]>,
+    ) {
+        let points: Vec<FixedVertex> = patch.polyline(chord).collect();
+        let places = match alongs {
+            Some(alongs) => {
+                let first = slot(chord.arc, chord.vertex) as usize;
+                places_between(&points, alongs[first], alongs[first + 1])
+            }
+            None => vec![0; points.len()],
+        };
+        debug_assert!((chord.vertex as usize) < mesh.boundary.len());
+        let pairs = points.windows(2).zip(places.windows(2));
+        self.pieces.extend(pairs.map(|(ends, along)| EdgeSegment {
+            ends: [ends[0], ends[1]],
+            arc: chord.arc,
+            along: [along[0], along[1]],
+            padding: 0,
+        }));
+    }
+
+    /// The pieces on the arcs that a layer draws.
+    pub(crate) fn runs(&self, patch: &Patch, drawn: impl Fn(usize) -> bool) -> Vec<Range<u32>> {
+        let mut runs: Vec<Range<u32>> = Vec::new();
+        for (chord, ends) in patch.chords.iter().zip(self.starts.windows(2)) {
+            if ends[0] == ends[1] || !drawn(chord.arc as usize) {
+                continue;
+            }
+            match runs.last_mut() {
+                Some(run) if run.end == ends[0] => run.end = ends[1],
+                _ => runs.push(ends[0]..ends[1]),
+            }
+        }
+        runs
+    }
+}
+
+/// How far along its arc each boundary slot lies, steps of 1/64 m, by the chords, which are shorter than
+/// the true edge by less than 3·10⁻⁶ where they are as close to it as 5 m a 16 km. Breaks hold 0.
+pub(crate) fn places_along(mesh: &FillMesh) -> Vec<u32> {
+    let mut places = Vec::with_capacity(mesh.boundary.len() + mesh.arcs.len());
+    for arc in &mesh.arcs {
+        let first = arc.first_vertex as usize;
+        let mut along_m = 0.0;
+        let mut last_m = mesh.vertices[first];
+        for &vertex_m in &mesh.vertices[first..first + arc.vertex_count as usize] {
+            along_m += vertex_m.distance(last_m);
+            last_m = vertex_m;
+            places.push((along_m * STEPS_PER_M).round() as u32);
+        }
+        places.push(0);
+    }
+    places
+}
+
+/// Places of the points of a polyline between two given ones, in proportion to its length.
+fn places_between(points: &[FixedVertex], from: u32, to: u32) -> Vec<u32> {
+    let mut along = 0.0;
+    let lengths: Vec<f64> = std::iter::once(0.0)
+        .chain(points.windows(2).map(|ends| {
+            along += way_steps(ends[0], ends[1]).length();
+            along
+        }))
+        .collect();
+    let scale = f64::from(to.saturating_sub(from)) / along.max(f64::MIN_POSITIVE);
+    lengths
+        .into_iter()
+        .map(|length| from + (length * scale).round() as u32)
+        .collect()
+}
+
+/// From one vertex to another, in steps of the encoding.
+fn way_steps(a: FixedVertex, b: FixedVertex) -> DVec3 {
+    DVec3::from_array(std::array::from_fn(|axis| {
+        let fraction = |vertex: FixedVertex| (vertex[3] >> (10 * axis)) & 1023;
+        f64::from(b[axis]) - f64::from(a[axis]) + f64::from(fraction(b) - fraction(a)) / 1024.0
+    }))
+}
+
+#[cfg(all(test, feature = "countries"))]
+mod tests {
+    use glam::{DMat3, DMat4, DVec4, UVec2};
+
+    use super::*;
+    use crate::{
+        CountTechnique, Ellipsoid, FillStyle, LonLat, MeshOptions,
+        countries::Dataset,
+        frame::{
+            code::Mantissa,
+            layers::{Layering, Styled},
+            select::Selection,
+        },
+        gpu::fixed_point::encode,
+        options::{Camera, Frame, RendererOptions},
+    };
+
+    fn countries() -> FillMesh {
+        let countries = Dataset::Countries110m.countries();
+        let regions: Vec<_> = countries.into_iter().map(|c| c.region).collect();
+        FillMesh::build(&regions, &MeshOptions::default()).expect("embedded data is sound")
+    }
+
+    fn looking_down(mesh: &FillMesh, at: LonLat, height_m: f64) -> Sight {
+        let up = Ellipsoid::WGS84.normal(at);
+        let right = up.any_orthonormal_vector();
+        let scale = 1.0 / 30f64.to_radians().tan();
+        let camera = Camera {
+            eye_ecef_m: Ellipsoid::WGS84.ecef(at, height_m),
+            view_from_ecef: DMat3::from_cols(right, up.cross(right), up).transpose(),
+            clip_from_view: DMat4::from_cols(
+                DVec4::new(scale, 0.0, 0.0, 0.0),
+                DVec4::new(0.0, scale, 0.0, 0.0),
+                DVec4::new(0.0, 0.0, 0.0, -1.0),
+                DVec4::new(0.0, 0.0, 0.1 * height_m, 0.0),
+            ),
+        };
+        let frame = Frame {
+            pixel_error: 0.0,
+            ..Frame::new(camera, UVec2::splat(720))
+        };
+        Sight::new(
+            mesh.ellipsoid,
+            mesh.sag_m,
+            &frame,
+            &RendererOptions::default(),
+        )
+        .expect("valid")
+    }
+
+    /// Every chord of an arc that is drawn is drawn once: as it is stored, or as pieces that lead from its
+    /// first vertex to its last. Chords of arcs that ask for no edges are not drawn.
+    #[test]
+    fn chords_and_pieces_cover_each_arc_once() {
+        let mesh = countries();
+        let styles = vec![FillStyle::default(); mesh.fills.len()];
+        let styled = [Styled {
+            mesh: &mesh,
+            styles: &styles,
+        }];
+        let layering =
+            Layering::assign(&styled, CountTechnique::Winding, Mantissa::Single).expect("fits");
+        let alongs = places_along(&mesh);
+        let layers: Vec<_> = layering
+            .layers
+            .iter()
+            .map(|layer| {
+                // Every third fill asks for edges.
+                let asks = |id: usize| [0.0, if id % 3 == 1 { 4.0 } else { 0.0 }];
+                Some(LayerEdges {
+                    code: layer.code,
+                    reaches: (0..=layer.fills.len()).map(asks).collect(),
+                })
+            })
+            .collect();
+        let wants = EdgeWants {
+            layers: &layers,
+            alongs: Some(&alongs),
+        };
+        let (mut stored, mut refined, mut left_out) = (0, 0, 0);
+        for (at, height_m) in [
+            (LonLat::new(10.0, 50.0), 2e7),
+            (LonLat::new(13.0, 48.5), 5e4),
+            (LonLat::new(6.8, 49.2), 1_000.0),
+        ] {
+            let sight = looking_down(&mesh, at, height_m);
+            let codes = &layering.codes[0];
+            let selection = Selection::with_edges(&mesh, codes, layers.len(), &sight, &wants);
+            let shown: Vec<_> = codes
+                .iter()
+                .zip(&mesh.pieces)
+                .map(|(code, piece)| code.filter(|_| !sight.beyond_horizon(&piece.bounds)))
+                .collect();
+            let edges = ArcEdges::new(&mesh, &shown, &sight, &wants);
+            for (layer, draws) in selection.layers.iter().enumerate() {
+                for (index, arc) in mesh.arcs.iter().enumerate() {
+                    for vertex in arc.first_vertex..arc.first_vertex + arc.vertex_count - 1 {
+                        let first = slot(index as u32, vertex);
+                        let runs = &draws.edges.chords;
+                        let as_stored = runs
+                            .iter()
+                            .filter(|run| run.start <= first && first + 1 < run.end)
+                            .count();
+                        let of_chord = |chord: &&RefinedChord| {
+                            (chord.arc, chord.vertex) == (index as u32, vertex)
+                        };
+                        let pieces = selection.patch.chords.iter().position(|c| of_chord(&c));
+                        let as_pieces = pieces.map_or(0, |chord| {
+                            let starts = &selection.segments.starts;
+                            let range = starts[chord] as usize..starts[chord + 1] as usize;
+                            let runs = draws.edges.segments.iter();
+                            let drawn = runs.filter(|run| {
+                                !range.is_empty() && run.contains(&(range.start as u32))
+                            });
+                            let drawn = drawn.count();
+                            if drawn > 0 {
+                                let ends = [vertex, vertex + 1]
+                                    .map(|vertex| encode(mesh.vertices[vertex as usize]));
+                                let places = [first, first + 1].map(|slot| alongs[slot as usize]);
+                                assert_leads(&selection.segments.pieces[range], ends, places);
+                            }
+                            drawn
+                        });
+                        let asked = usize::from(edges.wanted(layer, index));
+                        assert_eq!(as_stored + as_pieces, asked, "arc {index}, {height_m} m");
+                        stored += as_stored;
+                        refined += as_pieces;
+                        left_out += 1 - asked;
+                    }
+                }
+            }
+        }
+        assert!(
+            stored > 100 && refined > 0 && left_out > 100,
+            "{stored} {refined} {left_out}"
+        );
+    }
+
+    fn assert_leads(pieces: &[EdgeSegment], ends: [FixedVertex; 2], places: [u32; 2]) {
+        assert_eq!(pieces[0].ends[0], ends[0]);
+        assert_eq!(pieces[pieces.len() - 1].ends[1], ends[1]);
+        assert_eq!(pieces[0].along[0], places[0]);
+        assert_eq!(pieces[pieces.len() - 1].along[1], places[1]);
+        for pair in pieces.windows(2) {
+            assert_eq!(pair[0].ends[1], pair[1].ends[0]);
+            assert_eq!(pair[0].along[1], pair[1].along[0]);
+            assert!(pair[0].along[0] <= pair[0].along[1]);
+        }
+    }
+}

@@ -1,0 +1,179 @@
+//! Pipelines of the edge pass, compiled when a frame first needs them.
+
+use std::collections::HashMap;
+
+use crate::{
+    frame::edge_draws::EdgeSegment,
+    gpu::pipelines::{Pipelines, layout},
+    options::RendererOptions,
+    shaders,
+};
+
+/// What the edge pass writes; see `edge_of` in stroke.wgsl.
+pub(crate) const EDGE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
+/// Its own depth: which boundary is nearest.
+pub(crate) const NEAREST_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+
+/// Names a pipeline.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct EdgeKey {
+    /// Pieces of refined chords instead of stored chords.
+    pub refined: bool,
+    /// Whether places along arcs are wanted.
+    pub dashed: bool,
+    /// Whether the projection mirrors the picture.
+    pub mirrored: bool,
+}
+
+/// Layouts, the shader module and the pipelines made so far.
+pub(crate) struct EdgePipelines {
+    pub depth_layout: wgpu::BindGroupLayout,
+    /// Camera, what is particular to edges, reaches, places along arcs.
+    pub edge_layout: wgpu::BindGroupLayout,
+    pipeline_layout: wgpu::PipelineLayout,
+    shader: wgpu::ShaderModule,
+    made: HashMap<EdgeKey, wgpu::RenderPipeline>,
+}
+
+impl EdgePipelines {
+    pub(crate) fn new(
+        device: &wgpu::Device,
+        pipelines: &Pipelines,
+        options: RendererOptions,
+    ) -> Self {
+        let buffer = |ty| wgpu::BindingType::Buffer {
+            ty,
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        };
+        let uniform = buffer(wgpu::BufferBindingType::Uniform);
+        let storage = buffer(wgpu::BufferBindingType::Storage { read_only: true });
+        let depth = wgpu::BindingType::Texture {
+            sample_type: wgpu::TextureSampleType::Depth,
+            view_dimension: wgpu::TextureViewDimension::D2,
+            multisampled: options.sample_count > 1,
+        };
+        let fragment = wgpu::ShaderStages::FRAGMENT;
+        let depth_layout = layout(device, "globefill edge depth", fragment, &[depth]);
+        let edge_layout = edge_layout(device, uniform, storage);
+        let layouts = [
+            &pipelines.frame_layout,
+            &pipelines.mesh_layout,
+            &depth_layout,
+            &edge_layout,
+        ];
+        let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some("globefill edge"),
+            bind_group_layouts: &layouts.map(Some),
+            immediate_size: 0,
+        });
+        let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some("globefill edge"),
+            source: wgpu::ShaderSource::Wgsl(shaders::edge(options.sample_count).into()),
+        });
+        Self {
+            depth_layout,
+            edge_layout,
+            pipeline_layout,
+            shader,
+            made: HashMap::new(),
+        }
+    }
+
+    /// Compiles the pipeline if it does not exist yet.
+    pub(crate) fn ensure(&mut self, device: &wgpu::Device, key: EdgeKey) {
+        if !self.made.contains_key(&key) {
+            let pipeline = self.make(device, key);
+            self.made.insert(key, pipeline);
+        }
+    }
+
+    /// A pipeline that `ensure` was called for.
+    pub(crate) fn get(&self, key: EdgeKey) -> &wgpu::RenderPipeline {
+        &self.made[&key]
+    }
+
+    fn make(&self, device: &wgpu::Device, key: EdgeKey) -> wgpu::RenderPipeline {
+        let entry = if key.refined {
+            "vs_segment"
+        } else {
+            "vs_chord"
+        };
+        let attributes = wgpu::vertex_attr_array![0 => Sint32x4, 1 => Sint32x4, 2 => Uint32x4];
+        let segments = [Some(wgpu::VertexBufferLayout {
+            array_stride: size_of::<EdgeSegment>() as u64,
+            step_mode: wgpu::VertexStepMode::Instance,
+            attributes: &attributes,
+        })];
+        let constants = [("DASHED", f64::from(u8::from(key.dashed)))];
+        let compiled = wgpu::PipelineCompilationOptions {
+            constants: &constants,
+            ..Default::default()
+        };
+        device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some(entry),
+            layout: Some(&self.pipeline_layout),
+            vertex: wgpu::VertexState {
+                module: &self.shader,
+                entry_point: Some(entry),
+                compilation_options: compiled.clone(),
+                buffers: if key.refined { &segments } else { &[] },
+            },
+            primitive: wgpu::PrimitiveState {
+                topology: wgpu::PrimitiveTopology::TriangleStrip,
+                front_face: if key.mirrored {
+                    wgpu::FrontFace::Cw
+                } else {
+                    wgpu::FrontFace::Ccw
+                },
+                // The eye may be inside: back faces alone hold everything.
+                cull_mode: Some(wgpu::Face::Front),
+                ..Default::default()
+            },
+            depth_stencil: Some(wgpu::DepthStencilState {
+                format: NEAREST_FORMAT,
+                depth_write_enabled: Some(true),
+                depth_compare: Some(wgpu::CompareFunction::Less),
+                stencil: Default::default(),
+                bias: Default::default(),
+            }),
+            multisample: wgpu::MultisampleState::default(),
+            fragment: Some(wgpu::FragmentState {
+                module: &self.shader,
+                entry_point: Some("fs_edge"),
+                compilation_options: compiled,
+                targets: &[Some(EDGE_FORMAT.into())],
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+    }
+}
+
+fn edge_layout(
+    device: &wgpu::Device,
+    uniform: wgpu::BindingType,
+    storage: wgpu::BindingType,
+) -> wgpu::BindGroupLayout {
+    let vertex = wgpu::ShaderStages::VERTEX;
+    let both = wgpu::ShaderStages::VERTEX_FRAGMENT;
+    let bindings = [
+        (uniform, both),
+        (uniform, both),
+        (storage, vertex),
+        (storage, vertex),
+    ];
+    let entries: Vec<_> = (0..)
+        .zip(bindings)
+        .map(|(binding, (ty, visibility))| wgpu::BindGroupLayoutEntry {
+            binding,
+            visibility,
+            ty,
+            count: None,
+        })
+        .collect();
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("globefill edge"),
+        entries: &entries,
+    })
+}

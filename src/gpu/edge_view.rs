@@ -1,0 +1,408 @@
+//! What a view keeps of the edge pass, and recording it.
+
+use glam::UVec2;
+
+use crate::{
+    frame::edge_draws::{EdgeDraws, LayerEdges},
+    frame::edge_uniform::EdgeUniform,
+    frame::reference::Reference,
+    frame::select::Selection,
+    frame::sight::Sight,
+    frame::sight_uniform::SightUniform,
+    gpu::count::{Drawn, depth_only},
+    gpu::edge_pipelines::{EDGE_FORMAT, EdgeKey, EdgePipelines, NEAREST_FORMAT},
+    gpu::gpu_mesh::GpuMesh,
+    gpu::stream_buffer::StreamBuffer,
+    options::DepthConvention,
+};
+
+/// Corners of the prism around a chord.
+const CORNERS: u32 = 14;
+/// In the texel of a pixel without an edge, where ids would be; as in stroke.wgsl.
+const NO_EDGE: u32 = u32::MAX;
+
+/// Targets, buffers and bindings of one view.
+#[derive(Default)]
+pub(crate) struct EdgeView {
+    size_px: UVec2,
+    nearest: Option<wgpu::TextureView>,
+    /// By layer; none where no edges are wanted.
+    layers: Vec<Option<EdgeLayer>>,
+    /// In the order of the meshes drawn.
+    meshes: Vec<EdgeMesh>,
+    dashed: bool,
+    mirrored: bool,
+    /// The depth last given to `record`.
+    depth: Option<(wgpu::TextureView, wgpu::BindGroup)>,
+}
+
+struct EdgeLayer {
+    target: wgpu::TextureView,
+    reaches: StreamBuffer,
+}
+
+/// One mesh.
+struct EdgeMesh {
+    sight: StreamBuffer,
+    segments: StreamBuffer,
+    /// By layer, as `EdgeView::layers`.
+    layers: Vec<Option<EdgeMeshLayer>>,
+}
+
+/// One mesh in one layer.
+struct EdgeMeshLayer {
+    uniform: StreamBuffer,
+    group: Option<wgpu::BindGroup>,
+    /// What the group binds as places along arcs.
+    alongs: Option<wgpu::Buffer>,
+}
+
+/// A mesh as a frame shows it.
+#[derive(Clone, Copy)]
+pub(crate) struct EdgeSubject<'a> {
+    pub gpu: &'a GpuMesh,
+    pub sight: &'a Sight,
+    pub selection: &'a Selection,
+}
+
+/// What a frame asks for.
+#[derive(Clone, Copy)]
+pub(crate) struct EdgeFrame<'a> {
+    pub size_px: UVec2,
+    pub depth: DepthConvention,
+    /// By layer.
+    pub layers: &'a [Option<LayerEdges>],
+    /// Whether places along arcs are wanted.
+    pub dashed: bool,
+}
+
+/// What the edge passes of a frame cost.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct EdgeCost {
+    pub passes: u32,
+    pub draws: u32,
+    pub vertices: u64,
+}
+
+impl EdgeView {
+    /// Uploads what changed, in the order in which the meshes are drawn; returns the bytes, and whether
+    /// targets were replaced, which invalidates bindings of [`target`](Self::target).
+    pub(crate) fn prepare(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        pipelines: &mut EdgePipelines,
+        frame: &EdgeFrame<'_>,
+        subjects: &[EdgeSubject<'_>],
+    ) -> (u64, bool) {
+        self.dashed = frame.dashed;
+        self.mirrored = subjects.iter().any(|subject| subject.sight.mirrored);
+        for refined in [false, true] {
+            pipelines.ensure(device, self.key(refined));
+        }
+        let replaced = self.ensure_targets(device, frame);
+        let mut bytes = 0;
+        let mut moved = vec![false; self.layers.len()];
+        for ((layer, wanted), moved) in self.layers.iter_mut().zip(frame.layers).zip(&mut moved) {
+            if let (Some(layer), Some(wanted)) = (layer, wanted) {
+                let reaches = bytemuck::cast_slice(&wanted.reaches);
+                let (uploaded, replaced) = layer.reaches.write(device, queue, reaches);
+                bytes += uploaded;
+                *moved = replaced;
+            }
+        }
+        self.meshes.truncate(subjects.len());
+        self.meshes
+            .resize_with(subjects.len(), || EdgeMesh::new(device));
+        for (mesh, subject) in self.meshes.iter_mut().zip(subjects) {
+            let with = Upload {
+                device,
+                queue,
+                pipelines,
+                frame,
+                layers: &self.layers,
+                moved: &moved,
+            };
+            bytes += mesh.upload(&with, subject);
+        }
+        (bytes, replaced)
+    }
+
+    fn key(&self, refined: bool) -> EdgeKey {
+        EdgeKey {
+            refined,
+            dashed: self.dashed,
+            mirrored: self.mirrored,
+        }
+    }
+
+    fn ensure_targets(&mut self, device: &wgpu::Device, frame: &EdgeFrame<'_>) -> bool {
+        let wanted = frame.layers.iter().map(Option::is_some);
+        let held = self.layers.iter().map(Option::is_some);
+        if self.size_px == frame.size_px && held.eq(wanted.clone()) {
+            return false;
+        }
+        let attachment = wgpu::TextureUsages::RENDER_ATTACHMENT;
+        let texture = |label, format, usage| {
+            let size = wgpu::Extent3d {
+                width: frame.size_px.x,
+                height: frame.size_px.y,
+                depth_or_array_layers: 1,
+            };
+            let texture = device.create_texture(&wgpu::TextureDescriptor {
+                label: Some(label),
+                size,
+                mip_level_count: 1,
+                sample_count: 1,
+                dimension: wgpu::TextureDimension::D2,
+                format,
+                usage,
+                view_formats: &[],
+            });
+            texture.create_view(&wgpu::TextureViewDescriptor::default())
+        };
+        let layer = |wanted: bool| {
+            wanted.then(|| EdgeLayer {
+                target: texture(
+                    "globefill edges",
+                    EDGE_FORMAT,
+                    attachment
+                        | wgpu::TextureUsages::TEXTURE_BINDING
+                        | wgpu::TextureUsages::COPY_SRC,
+                ),
+                reaches: StreamBuffer::new(
+                    device,
+                    "globefill reaches",
+                    wgpu::BufferUsages::STORAGE,
+                ),
+            })
+        };
+        self.nearest = Some(texture("globefill nearest", NEAREST_FORMAT, attachment));
+        self.layers = wanted.map(layer).collect();
+        self.size_px = frame.size_px;
+        // Their bindings refer to the layers' buffers.
+        self.meshes.clear();
+        true
+    }
+
+    /// What the edge pass of a layer writes: `EDGE_FORMAT`, of the view's size, one sample. None for layers
+    /// without edges.
+    pub(crate) fn target(&self, layer: usize) -> Option<&wgpu::TextureView> {
+        let layer = self.layers.get(layer)?.as_ref()?;
+        Some(&layer.target)
+    }
+
+    /// Records the passes: outside any pass, once the host's depth is final. `meshes` are those of
+    /// [`prepare`](Self::prepare), in its order; the depth is bound as a texture.
+    pub(crate) fn record(
+        &mut self,
+        device: &wgpu::Device,
+        pipelines: &EdgePipelines,
+        encoder: &mut wgpu::CommandEncoder,
+        depth: &wgpu::TextureView,
+        meshes: &[Drawn<'_>],
+    ) {
+        if self.depth.as_ref().is_none_or(|(bound, _)| bound != depth) {
+            let group = depth_group(device, pipelines, depth);
+            self.depth = Some((depth.clone(), group));
+        }
+        let (Some((_, depth)), Some(nearest)) = (&self.depth, &self.nearest) else {
+            return;
+        };
+        for (index, layer) in self.layers.iter().enumerate() {
+            let Some(layer) = layer else {
+                continue;
+            };
+            let mut pass = begin(encoder, &layer.target, nearest);
+            pass.set_bind_group(2, depth, &[]);
+            for (mesh, drawn) in self.meshes.iter().zip(meshes) {
+                let edges = &drawn.view.selection.layers[index].edges;
+                let Some(group) = mesh.group(index) else {
+                    continue;
+                };
+                pass.set_bind_group(0, &drawn.view.frame_group, &[]);
+                pass.set_bind_group(1, &drawn.view.layers[index].mesh_group, &[]);
+                pass.set_bind_group(3, group, &[]);
+                self.draw(&mut pass, pipelines, mesh, edges);
+            }
+        }
+    }
+
+    fn draw(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        pipelines: &EdgePipelines,
+        mesh: &EdgeMesh,
+        edges: &EdgeDraws,
+    ) {
+        if !edges.chords.is_empty() {
+            pass.set_pipeline(pipelines.get(self.key(false)));
+            for slots in &edges.chords {
+                pass.draw(0..CORNERS, slots.start..slots.end - 1);
+            }
+        }
+        if !edges.segments.is_empty() {
+            pass.set_pipeline(pipelines.get(self.key(true)));
+            pass.set_vertex_buffer(0, mesh.segments.buffer.slice(..));
+            for pieces in &edges.segments {
+                pass.draw(0..CORNERS, pieces.clone());
+            }
+        }
+    }
+}
+
+/// What the edge passes of a frame cost, given how each mesh is drawn.
+pub(crate) fn edge_cost<'a>(
+    layers: &[Option<LayerEdges>],
+    selections: impl Iterator<Item = &'a Selection>,
+) -> EdgeCost {
+    let mut cost = EdgeCost {
+        passes: layers.iter().flatten().count() as u32,
+        ..Default::default()
+    };
+    for edges in selections.flat_map(|selection| selection.layers.iter().map(|draws| &draws.edges))
+    {
+        cost.draws += (edges.chords.len() + edges.segments.len()) as u32;
+        let chords = edges.chords.iter().map(|slots| slots.len() as u64 - 1);
+        let pieces = edges.segments.iter().map(|pieces| pieces.len() as u64);
+        cost.vertices += u64::from(CORNERS) * (chords.sum::<u64>() + pieces.sum::<u64>());
+    }
+    cost
+}
+
+/// Where a view uploads to.
+struct Upload<'a> {
+    device: &'a wgpu::Device,
+    queue: &'a wgpu::Queue,
+    pipelines: &'a EdgePipelines,
+    frame: &'a EdgeFrame<'a>,
+    layers: &'a [Option<EdgeLayer>],
+    /// By layer: whether its buffers were replaced.
+    moved: &'a [bool],
+}
+
+impl EdgeMesh {
+    fn new(device: &wgpu::Device) -> Self {
+        Self {
+            sight: StreamBuffer::new(device, "globefill sight", wgpu::BufferUsages::UNIFORM),
+            segments: StreamBuffer::new(device, "globefill segments", wgpu::BufferUsages::VERTEX),
+            layers: Vec::new(),
+        }
+    }
+
+    fn group(&self, layer: usize) -> Option<&wgpu::BindGroup> {
+        self.layers.get(layer)?.as_ref()?.group.as_ref()
+    }
+
+    fn upload(&mut self, to: &Upload<'_>, subject: &EdgeSubject<'_>) -> u64 {
+        let (device, queue) = (to.device, to.queue);
+        let sight = subject.sight;
+        let reference = Reference::new(sight.ellipsoid, sight.eye_ecef_m);
+        let rays = SightUniform::new(sight, &reference, to.frame.depth, to.frame.size_px);
+        // Uniforms never grow, so their bindings stay.
+        let mut bytes = self.sight.write(device, queue, bytemuck::bytes_of(&rays)).0;
+        let pieces = bytemuck::cast_slice(&subject.selection.segments.pieces);
+        bytes += self.segments.write(device, queue, pieces).0;
+        self.layers.resize_with(to.layers.len(), || None);
+        for (index, (layer, wanted)) in to.layers.iter().zip(to.frame.layers).enumerate() {
+            let (Some(layer), Some(wanted)) = (layer, wanted) else {
+                continue;
+            };
+            let uniform = EdgeUniform::new(sight, &reference, &rays, &wanted.code);
+            // Where no dashes are wanted nothing is read there.
+            let alongs = subject.gpu.known_alongs().filter(|_| to.frame.dashed);
+            let alongs = alongs.map_or(&layer.reaches.buffer, |alongs| &alongs.buffer);
+            let mut kept = match self.layers[index].take() {
+                Some(kept) => kept,
+                None => EdgeMeshLayer::new(device),
+            };
+            let uniform = bytemuck::bytes_of(&uniform);
+            bytes += kept.uniform.write(device, queue, uniform).0;
+            if to.moved[index] || kept.alongs.as_ref() != Some(alongs) {
+                let (sight, edge) = (&self.sight.buffer, &kept.uniform.buffer);
+                let buffers = [sight, edge, &layer.reaches.buffer, alongs];
+                kept.group = Some(edge_group(device, to.pipelines, buffers));
+                kept.alongs = Some(alongs.clone());
+            }
+            self.layers[index] = Some(kept);
+        }
+        bytes
+    }
+}
+
+impl EdgeMeshLayer {
+    fn new(device: &wgpu::Device) -> Self {
+        let uniform = wgpu::BufferUsages::UNIFORM;
+        Self {
+            uniform: StreamBuffer::new(device, "globefill edge", uniform),
+            group: None,
+            alongs: None,
+        }
+    }
+}
+
+fn edge_group(
+    device: &wgpu::Device,
+    pipelines: &EdgePipelines,
+    buffers: [&wgpu::Buffer; 4],
+) -> wgpu::BindGroup {
+    let entries: Vec<_> = (0..)
+        .zip(buffers)
+        .map(|(binding, buffer)| wgpu::BindGroupEntry {
+            binding,
+            resource: buffer.as_entire_binding(),
+        })
+        .collect();
+    device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some("globefill edge"),
+        layout: &pipelines.edge_layout,
+        entries: &entries,
+    })
+}
+
+fn depth_group(
+    device: &wgpu::Device,
+    pipelines: &EdgePipelines,
+    depth: &wgpu::TextureView,
+) -> wgpu::BindGroup {
+    device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some("globefill edge depth"),
+        layout: &pipelines.depth_layout,
+        entries: &[wgpu::BindGroupEntry {
+            binding: 0,
+            resource: wgpu::BindingResource::TextureView(&depth_only(depth)),
+        }],
+    })
+}
+
+fn begin<'a>(
+    encoder: &'a mut wgpu::CommandEncoder,
+    target: &wgpu::TextureView,
+    nearest: &wgpu::TextureView,
+) -> wgpu::RenderPass<'a> {
+    let no_edge = wgpu::Color {
+        b: f64::from(NO_EDGE),
+        ..wgpu::Color::TRANSPARENT
+    };
+    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: Some("globefill edges"),
+        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+            view: target,
+            depth_slice: None,
+            resolve_target: None,
+            ops: wgpu::Operations {
+                load: wgpu::LoadOp::Clear(no_edge),
+                store: wgpu::StoreOp::Store,
+            },
+        })],
+        depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+            view: nearest,
+            depth_ops: Some(wgpu::Operations {
+                load: wgpu::LoadOp::Clear(1.0),
+                store: wgpu::StoreOp::Discard,
+            }),
+            stencil_ops: None,
+        }),
+        ..Default::default()
+    })
+}
