@@ -27,11 +27,11 @@ struct EdgeSight {
     code: vec4<u32>,
 }
 
-@group(3) @binding(1) var<uniform> edge_sight: EdgeSight;
+@group(3) @binding(0) var<uniform> edge_sight: EdgeSight;
 // By id of the layer, 0 for none: how far its edges are asked for, metres and pixels, which add up.
-@group(3) @binding(2) var<storage, read> reaches: array<vec2<f32>>;
+@group(3) @binding(1) var<storage, read> reaches: array<vec2<f32>>;
 // By slot: steps of 1/64 m from the start of the arc.
-@group(3) @binding(3) var<storage, read> alongs: array<u32>;
+@group(3) @binding(2) var<storage, read> alongs: array<u32>;
 
 // Corners of a cube as a strip of fourteen: which are ahead, to the left, on top.
 const AHEAD: u32 = 0x287au;

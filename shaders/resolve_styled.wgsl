@@ -68,15 +68,67 @@ fn paint_of(style: u32, seen: Seen) -> vec4<f32> {
     return over(styles[style].highlight, patterned);
 }
 
+// The same with all that fades it, and with what it hides of what is below as its alpha; nothing for what
+// another draw shows.
+fn color_of(fill: u32, seen: Seen, array: u32) -> vec4<f32> {
+    let style = max(fill, 1u) - 1u;
+    let color = paint_of(style, seen) * opacity_of(style, seen);
+    let shown = fill != NONE && styles[style].pattern.w == array;
+    return select(vec4<f32>(0.0), hiding(style, color), shown);
+}
+
+fn hiding(style: u32, color: vec4<f32>) -> vec4<f32> {
+    return vec4<f32>(color.xyz, color.w * styles[style].fade_sine.z);
+}
+
+// The stroke of the fill on one side of the nearest boundary.
+fn stroke_of(fill: u32, on_left: bool, edge: Edge, seen: Seen, array: u32) -> vec4<f32> {
+    let style = max(fill, 1u) - 1u;
+    let size = styles[style].stroke_size;
+    let dash = vec4<f32>(size.zw, styles[style].dash_share, 0.0);
+    let share = stroke_share(edge, on_left, size.xy, styles[style].align, dash);
+    let color = styles[style].stroke * share * opacity_of(style, seen);
+    let shown = fill != NONE && styles[style].pattern.w == array;
+    return select(vec4<f32>(0.0), hiding(style, color), shown);
+}
+
+// The nearest boundary, on the side of which the counted fill is right wherever the pixel's middle is
+// clearly on one.
+fn edge_at(texel: vec4<u32>, fill: u32) -> Edge {
+    var edge = edge_of(texel);
+    let clearly = abs(edge.signed_m) > 0.75 * edge.across_m;
+    if clearly && fill == edge.left && fill != edge.right {
+        edge.signed_m = abs(edge.signed_m);
+    }
+    if clearly && fill == edge.right && fill != edge.left {
+        edge.signed_m = -abs(edge.signed_m);
+    }
+    return edge;
+}
+
 fn styled_at(pixel: vec2<u32>, sample: u32, array: u32) -> vec4<f32> {
     let fill = fill_at(vec2<i32>(pixel), sample);
-    let style = max(fill, 1u) - 1u;
     let seen = seen_at(vec2<f32>(pixel) + sample_px(sample), depth_at(pixel, sample));
-    if fill == NONE || styles[style].pattern.w != array {
-        discard;
+    var color = color_of(fill, seen, array);
+    if needs(NEEDS_SMOOTH | NEEDS_STROKES) {
+        let texel = textureLoad(edges, vec2<i32>(pixel), 0);
+        let edge = edge_at(texel, fill);
+        let measured = has_edge(texel);
+        if needs(NEEDS_SMOOTH) && measured && (fill == edge.left || fill == edge.right) {
+            let other = select(edge.left, edge.right, fill == edge.left);
+            let left = side_share(edge);
+            let share = select(1.0 - left, left, fill == edge.left);
+            color = mix(color_of(other, seen, array), color, share);
+        }
+        if needs(NEEDS_STROKES) && measured {
+            // The fill that is drawn later lies on top.
+            let lower = min(edge.left, edge.right);
+            let upper = max(edge.left, edge.right);
+            color = over(stroke_of(lower, lower == edge.left, edge, seen, array), color);
+            color = over(stroke_of(upper, upper == edge.left, edge, seen, array), color);
+        }
     }
-    let color = paint_of(style, seen) * opacity_of(style, seen);
-    return vec4<f32>(color.xyz, color.w * styles[style].fade_sine.z);
+    return color;
 }
 
 @fragment

@@ -55,6 +55,8 @@ struct Placed {
 
 @group(1) @binding(0) var<storage, read> styles: array<Style>;
 @group(1) @binding(1) var<storage, read> places: array<Placed>;
+// What the edge pass wrote.
+@group(1) @binding(2) var edges: texture_2d<u32>;
 
 // What the fills of the layer need, a bit for each: the rest is compiled away.
 override NEEDS: u32 = 0u;

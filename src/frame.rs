@@ -1,9 +1,7 @@
 //! What one view draws in one frame, decided in f64 without the GPU.
 
 pub(crate) mod code;
-#[allow(dead_code, reason = "drawn once styles ask for edges")]
 pub(crate) mod edge_draws;
-#[allow(dead_code, reason = "drawn once styles ask for edges")]
 pub(crate) mod edge_uniform;
 pub(crate) mod layers;
 pub(crate) mod placed;

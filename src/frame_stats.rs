@@ -17,8 +17,11 @@ pub struct FrameStats {
     pub layers: u32,
     /// Layers that are resolved with patterns, strokes or fades: 0 where plain colours say all.
     pub styled_layers: u32,
-    /// Render passes that `count` records.
+    /// Counting passes that `count` records.
     pub passes: u32,
+    /// Passes in which `count` measures how far pixels are from boundaries: one for each layer with
+    /// strokes or smooth edges.
+    pub edge_passes: u32,
     /// Draw calls, of `count` and `resolve`.
     pub draws: u32,
     /// Vertices submitted to the vertex stage (before any vertex cache).

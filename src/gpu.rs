@@ -1,11 +1,9 @@
 //! Upload, and the passes that count and resolve.
 
 pub(crate) mod count;
-#[allow(dead_code, reason = "drawn once styles ask for edges")]
 pub(crate) mod edge_pipelines;
 #[cfg(test)]
 mod edge_tests;
-#[allow(dead_code, reason = "drawn once styles ask for edges")]
 pub(crate) mod edge_view;
 pub(crate) mod fixed_function;
 pub(crate) mod fixed_point;

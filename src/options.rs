@@ -37,6 +37,10 @@ pub struct RendererOptions {
     pub sample_count: u32,
     /// How covered surface points are counted.
     pub count: CountTechnique,
+    /// Whether boundaries of fills are blended by the share of the pixel that lies on either side. For
+    /// hosts with one sample a pixel: several samples smooth boundaries themselves. Costs a pass that
+    /// draws all boundaries once more, and needs `TEXTURE_BINDING` on the depth.
+    pub smooth_edges: bool,
 }
 
 impl Default for RendererOptions {
@@ -47,6 +51,7 @@ impl Default for RendererOptions {
             depth: DepthConvention::Reversed,
             sample_count: 1,
             count: CountTechnique::Winding,
+            smooth_edges: false,
         }
     }
 }

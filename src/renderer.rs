@@ -5,7 +5,10 @@ mod prepare;
 mod sensors;
 mod styles;
 
-use std::{collections::BTreeMap, sync::OnceLock};
+use std::{
+    collections::{BTreeMap, HashMap},
+    sync::OnceLock,
+};
 
 use crate::{
     error::RendererError,
@@ -24,7 +27,7 @@ use crate::{
     options::{CountTechnique, Frame, RendererOptions},
     sensor_set::SensorSet,
     style::FillStyle,
-    view::View,
+    view::{MeshView, View},
 };
 
 /// Names a mesh in a [`Renderer`].
@@ -222,29 +225,28 @@ impl Renderer {
         statistics: Option<&wgpu::QuerySet>,
     ) {
         self.bin_sensors(view, encoder, depth);
-        self.bind_surface(view, depth);
+        self.count_styles(view, encoder, depth);
         let (Some(prepared), Some(targets)) = (view.prepared, &view.targets) else {
             return;
         };
-        let meshes = self
-            .meshes
-            .iter()
-            .filter_map(|(id, resident)| {
-                view.meshes.get(id).map(|view| Drawn {
-                    gpu: &resident.gpu,
-                    view,
-                })
-            })
-            .collect();
         let recorder = Recorder {
             device: &self.device,
             pipelines: &self.pipelines,
             prepared,
             targets,
-            meshes,
+            meshes: self.drawn(&view.meshes),
             statistics,
         };
         recorder.record(encoder, depth);
+    }
+
+    /// The meshes as a view draws them.
+    fn drawn<'a>(&'a self, views: &'a HashMap<MeshId, MeshView>) -> Vec<Drawn<'a>> {
+        let drawn = self.meshes.iter().filter_map(|(id, resident)| {
+            let gpu = &resident.gpu;
+            views.get(id).map(|view| Drawn { gpu, view })
+        });
+        drawn.collect()
     }
 
     /// Records the fills, then the sensors, into the host's pass, which has the colour target, the

@@ -72,6 +72,7 @@ pub fn resolve_styled(sample_count: u32) -> String {
         MAP,
         HATCH,
         PICTURE,
+        STROKE,
         RESOLVE_STYLED,
     ];
     parts.concat()
@@ -100,29 +101,8 @@ fn depth(sample_count: u32) -> &'static str {
 
 /// The distances to the nearest boundaries.
 pub fn edge(sample_count: u32) -> String {
-    let surface = rebound(SURFACE, "sight", 3, 0);
-    let parts = [EXTRUDE, FACE, &surface, PIXEL, depth(sample_count), EDGE];
+    let parts = [EXTRUDE, FACE, SURFACE, PIXEL, depth(sample_count), EDGE];
     parts.concat()
-}
-
-/// What reads those distances: functions without entry point or binding.
-pub fn stroke() -> String {
-    STROKE.to_owned()
-}
-
-/// A shader part with its uniform bound elsewhere, for programs that bind something else there.
-fn rebound(source: &str, uniform: &str, group: u32, binding: u32) -> String {
-    let declared = format!("var<uniform> {uniform}:");
-    source
-        .lines()
-        .map(|line| match line.find(&declared) {
-            Some(start) => {
-                let bound = &line[start..];
-                format!("@group({group}) @binding({binding}) {bound}\n")
-            }
-            None => format!("{line}\n"),
-        })
-        .collect()
 }
 
 /// Which sensors cover which tiles.
@@ -167,7 +147,6 @@ pub fn all() -> Vec<(&'static str, String)> {
         ("pick_multisampled", pick(4)),
         ("edge", edge(1)),
         ("edge_multisampled", edge(4)),
-        ("stroke", stroke()),
         ("bin_sensors", bin_sensors(1)),
         ("bin_sensors_multisampled", bin_sensors(4)),
         ("count_sensors", count_sensors(1)),
@@ -320,15 +299,6 @@ mod tests {
         );
         assert_eq!(members, expected);
         assert_eq!(size, size_of::<EdgeUniform>());
-    }
-
-    #[test]
-    fn the_surface_of_the_edge_pass_is_bound_apart_from_its_frame() {
-        for samples in [1, 4] {
-            let source = super::edge(samples);
-            let moved = "@group(3) @binding(0) var<uniform> sight: Sight;";
-            assert_eq!(source.matches(moved).count(), 1);
-        }
     }
 
     #[test]

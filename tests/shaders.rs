@@ -8,7 +8,8 @@ fn every_shader_validates() {
         let mut validator = naga::valid::Validator::new(
             naga::valid::ValidationFlags::all(),
             naga::valid::Capabilities::MULTISAMPLED_SHADING
-                | naga::valid::Capabilities::CLIP_DISTANCES,
+                | naga::valid::Capabilities::CLIP_DISTANCES
+                | naga::valid::Capabilities::SHADER_FLOAT16_IN_FLOAT32,
         );
         if let Err(error) = validator.validate(&module) {
             panic!("{name}: {}", error.emit_to_string(&source));

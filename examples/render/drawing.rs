@@ -52,16 +52,13 @@ impl Drawing {
         mesh: FillMesh,
         technique: Technique,
     ) -> Result<Self, String> {
-        // TEMPORARY, until `RendererOptions` has `smooth_edges: technique.smooth_edges`.
-        if technique.smooth_edges {
-            return Err("--smooth-edges cannot be drawn yet".into());
-        }
         let options = RendererOptions {
             color_format: targets.format.color,
             depth_format: targets.format.depth,
             depth: targets.format.convention,
             sample_count: targets.format.sample_count,
             count: technique.count,
+            smooth_edges: technique.smooth_edges,
         };
         let mut renderer =
             Renderer::new(&gpu.device, options).map_err(|error| error.to_string())?;

@@ -62,16 +62,6 @@ impl Selection {
         codes: &[Option<PieceCode>],
         layer_count: usize,
         sight: &Sight,
-    ) -> Self {
-        Self::with_edges(mesh, codes, layer_count, sight, &EdgeWants::default())
-    }
-
-    /// Like [`Self::of`], with the boundaries that the edge pass draws.
-    pub(crate) fn with_edges(
-        mesh: &FillMesh,
-        codes: &[Option<PieceCode>],
-        layer_count: usize,
-        sight: &Sight,
         wants: &EdgeWants<'_>,
     ) -> Self {
         let shown: Vec<Option<PieceCode>> = mesh
@@ -396,7 +386,13 @@ mod tests {
         ] {
             let sight = looking_down(at, height_m, field_of_view_deg, mesh.sag_m);
             let layers = layering.layers.len();
-            let selection = Selection::of(&mesh, &layering.codes[0], layers, &sight);
+            let selection = Selection::of(
+                &mesh,
+                &layering.codes[0],
+                layers,
+                &sight,
+                &EdgeWants::default(),
+            );
             culled += selection.fills_culled;
             refined += selection.patch.chords.len();
             for draws in &selection.layers {

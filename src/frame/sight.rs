@@ -170,10 +170,10 @@ impl Sight {
         (middle_m, on_surface_m + height_m)
     }
 
-    /// What may be seen of the surface in `bounds`.
-    pub(crate) fn window_of(&self, bounds: &Bounds) -> Window {
+    /// What may be seen of the surface within `reach_m` of what is in `bounds`.
+    pub(crate) fn window_of(&self, bounds: &Bounds, reach_m: f64) -> Window {
         let (middle_m, radius_m) = self.sphere(bounds);
-        Window::of_sphere(&self.clip_from_relative, middle_m, radius_m)
+        Window::of_sphere(&self.clip_from_relative, middle_m, radius_m + reach_m)
     }
 
     /// What may be seen of any surface.

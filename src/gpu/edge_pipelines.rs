@@ -27,8 +27,7 @@ pub(crate) struct EdgeKey {
 
 /// Layouts, the shader module and the pipelines made so far.
 pub(crate) struct EdgePipelines {
-    pub depth_layout: wgpu::BindGroupLayout,
-    /// Camera, what is particular to edges, reaches, places along arcs.
+    /// What is particular to edges, reaches, places along arcs.
     pub edge_layout: wgpu::BindGroupLayout,
     pipeline_layout: wgpu::PipelineLayout,
     shader: wgpu::ShaderModule,
@@ -39,6 +38,7 @@ impl EdgePipelines {
     pub(crate) fn new(
         device: &wgpu::Device,
         pipelines: &Pipelines,
+        surface_layout: &wgpu::BindGroupLayout,
         options: RendererOptions,
     ) -> Self {
         let buffer = |ty| wgpu::BindingType::Buffer {
@@ -48,18 +48,13 @@ impl EdgePipelines {
         };
         let uniform = buffer(wgpu::BufferBindingType::Uniform);
         let storage = buffer(wgpu::BufferBindingType::Storage { read_only: true });
-        let depth = wgpu::BindingType::Texture {
-            sample_type: wgpu::TextureSampleType::Depth,
-            view_dimension: wgpu::TextureViewDimension::D2,
-            multisampled: options.sample_count > 1,
-        };
-        let fragment = wgpu::ShaderStages::FRAGMENT;
-        let depth_layout = layout(device, "globefill edge depth", fragment, &[depth]);
-        let edge_layout = edge_layout(device, uniform, storage);
+        let vertex = wgpu::ShaderStages::VERTEX_FRAGMENT;
+        let bindings = [uniform, storage, storage];
+        let edge_layout = layout(device, "globefill edge", vertex, &bindings);
         let layouts = [
             &pipelines.frame_layout,
             &pipelines.mesh_layout,
-            &depth_layout,
+            surface_layout,
             &edge_layout,
         ];
         let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
@@ -72,7 +67,6 @@ impl EdgePipelines {
             source: wgpu::ShaderSource::Wgsl(shaders::edge(options.sample_count).into()),
         });
         Self {
-            depth_layout,
             edge_layout,
             pipeline_layout,
             shader,
@@ -148,32 +142,4 @@ impl EdgePipelines {
             cache: None,
         })
     }
-}
-
-fn edge_layout(
-    device: &wgpu::Device,
-    uniform: wgpu::BindingType,
-    storage: wgpu::BindingType,
-) -> wgpu::BindGroupLayout {
-    let vertex = wgpu::ShaderStages::VERTEX;
-    let both = wgpu::ShaderStages::VERTEX_FRAGMENT;
-    let bindings = [
-        (uniform, both),
-        (uniform, both),
-        (storage, vertex),
-        (storage, vertex),
-    ];
-    let entries: Vec<_> = (0..)
-        .zip(bindings)
-        .map(|(binding, (ty, visibility))| wgpu::BindGroupLayoutEntry {
-            binding,
-            visibility,
-            ty,
-            count: None,
-        })
-        .collect();
-    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some("globefill edge"),
-        entries: &entries,
-    })
 }

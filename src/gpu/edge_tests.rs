@@ -15,6 +15,8 @@ use crate::{
         surface::{Cast, DepthKind, Surface, Terrain},
     },
     ellipsoid::Ellipsoid,
+    frame::reference::Reference,
+    frame::sight_uniform::SightUniform,
     frame::{
         code::Mantissa,
         edge_draws::{EdgeWants, LayerEdges},
@@ -28,6 +30,7 @@ use crate::{
         edge_view::{EdgeFrame, EdgeSubject, EdgeView, edge_cost},
         gpu_mesh::GpuMesh,
         pipelines::Pipelines,
+        surface_binding::{SurfaceBinding, surface_layout},
     },
     options::{CountTechnique, Frame, HeightRange, RendererOptions},
     view::{MeshView, Upload},
@@ -42,6 +45,7 @@ struct Texel {
     across_m: f64,
     along_m: f64,
     sides: [u32; 2],
+    #[expect(dead_code, reason = "dashes are judged in pictures")]
     along: u32,
 }
 
@@ -121,7 +125,7 @@ fn draw(
         layers: &layers,
         alongs: Some(&alongs.by_slot),
     };
-    let selection = Selection::with_edges(
+    let selection = Selection::of(
         mesh,
         &layering.codes[0],
         layering.layers.len(),
@@ -132,7 +136,14 @@ fn draw(
     println!("{cost:?}, {} refined", selection.patch.chords.len());
 
     let pipelines = Pipelines::new(device, options);
-    let mut edge_pipelines = EdgePipelines::new(device, &pipelines, options);
+    let stages = wgpu::ShaderStages::VERTEX_FRAGMENT;
+    let layout = surface_layout(device, options.sample_count, stages);
+    let mut surface = SurfaceBinding::new(device);
+    let reference = Reference::new(sight.ellipsoid, sight.eye_ecef_m);
+    let uniform = SightUniform::new(&sight, &reference, options.depth, frame.size_px);
+    surface.write(device, queue, &uniform);
+    surface.bind(device, &layout, &depth);
+    let mut edge_pipelines = EdgePipelines::new(device, &pipelines, &layout, options);
     let mut edges = EdgeView::default();
     let subject = EdgeSubject {
         gpu: &uploaded,
@@ -161,7 +172,8 @@ fn draw(
         gpu: &uploaded,
         view: &view,
     }];
-    edges.record(device, &edge_pipelines, &mut encoder, &depth, &drawn);
+    let surface = surface.group().expect("the depth was bound");
+    edges.record(&edge_pipelines, &mut encoder, surface, &drawn);
     queue.submit([encoder.finish()]);
     let target = edges.target(0).expect("edges were asked for");
     read(gpu, target.texture())

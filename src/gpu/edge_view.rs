@@ -9,7 +9,7 @@ use crate::{
     frame::select::Selection,
     frame::sight::Sight,
     frame::sight_uniform::SightUniform,
-    gpu::count::{Drawn, depth_only},
+    gpu::count::Drawn,
     gpu::edge_pipelines::{EDGE_FORMAT, EdgeKey, EdgePipelines, NEAREST_FORMAT},
     gpu::gpu_mesh::GpuMesh,
     gpu::stream_buffer::StreamBuffer,
@@ -32,8 +32,6 @@ pub(crate) struct EdgeView {
     meshes: Vec<EdgeMesh>,
     dashed: bool,
     mirrored: bool,
-    /// The depth last given to `record`.
-    depth: Option<(wgpu::TextureView, wgpu::BindGroup)>,
 }
 
 struct EdgeLayer {
@@ -43,7 +41,6 @@ struct EdgeLayer {
 
 /// One mesh.
 struct EdgeMesh {
-    sight: StreamBuffer,
     segments: StreamBuffer,
     /// By layer, as `EdgeView::layers`.
     layers: Vec<Option<EdgeMeshLayer>>,
@@ -142,34 +139,9 @@ impl EdgeView {
         if self.size_px == frame.size_px && held.eq(wanted.clone()) {
             return false;
         }
-        let attachment = wgpu::TextureUsages::RENDER_ATTACHMENT;
-        let texture = |label, format, usage| {
-            let size = wgpu::Extent3d {
-                width: frame.size_px.x,
-                height: frame.size_px.y,
-                depth_or_array_layers: 1,
-            };
-            let texture = device.create_texture(&wgpu::TextureDescriptor {
-                label: Some(label),
-                size,
-                mip_level_count: 1,
-                sample_count: 1,
-                dimension: wgpu::TextureDimension::D2,
-                format,
-                usage,
-                view_formats: &[],
-            });
-            texture.create_view(&wgpu::TextureViewDescriptor::default())
-        };
         let layer = |wanted: bool| {
             wanted.then(|| EdgeLayer {
-                target: texture(
-                    "globefill edges",
-                    EDGE_FORMAT,
-                    attachment
-                        | wgpu::TextureUsages::TEXTURE_BINDING
-                        | wgpu::TextureUsages::COPY_SRC,
-                ),
+                target: edge_target(device, frame.size_px),
                 reaches: StreamBuffer::new(
                     device,
                     "globefill reaches",
@@ -177,7 +149,8 @@ impl EdgeView {
                 ),
             })
         };
-        self.nearest = Some(texture("globefill nearest", NEAREST_FORMAT, attachment));
+        let attachment = wgpu::TextureUsages::RENDER_ATTACHMENT;
+        self.nearest = Some(texture(device, frame.size_px, NEAREST_FORMAT, attachment));
         self.layers = wanted.map(layer).collect();
         self.size_px = frame.size_px;
         // Their bindings refer to the layers' buffers.
@@ -193,20 +166,15 @@ impl EdgeView {
     }
 
     /// Records the passes: outside any pass, once the host's depth is final. `meshes` are those of
-    /// [`prepare`](Self::prepare), in its order; the depth is bound as a texture.
+    /// [`prepare`](Self::prepare), in its order; `surface` is the depth with its camera.
     pub(crate) fn record(
-        &mut self,
-        device: &wgpu::Device,
+        &self,
         pipelines: &EdgePipelines,
         encoder: &mut wgpu::CommandEncoder,
-        depth: &wgpu::TextureView,
+        surface: &wgpu::BindGroup,
         meshes: &[Drawn<'_>],
     ) {
-        if self.depth.as_ref().is_none_or(|(bound, _)| bound != depth) {
-            let group = depth_group(device, pipelines, depth);
-            self.depth = Some((depth.clone(), group));
-        }
-        let (Some((_, depth)), Some(nearest)) = (&self.depth, &self.nearest) else {
+        let Some(nearest) = &self.nearest else {
             return;
         };
         for (index, layer) in self.layers.iter().enumerate() {
@@ -214,7 +182,7 @@ impl EdgeView {
                 continue;
             };
             let mut pass = begin(encoder, &layer.target, nearest);
-            pass.set_bind_group(2, depth, &[]);
+            pass.set_bind_group(2, surface, &[]);
             for (mesh, drawn) in self.meshes.iter().zip(meshes) {
                 let edges = &drawn.view.selection.layers[index].edges;
                 let Some(group) = mesh.group(index) else {
@@ -284,7 +252,6 @@ struct Upload<'a> {
 impl EdgeMesh {
     fn new(device: &wgpu::Device) -> Self {
         Self {
-            sight: StreamBuffer::new(device, "globefill sight", wgpu::BufferUsages::UNIFORM),
             segments: StreamBuffer::new(device, "globefill segments", wgpu::BufferUsages::VERTEX),
             layers: Vec::new(),
         }
@@ -299,10 +266,8 @@ impl EdgeMesh {
         let sight = subject.sight;
         let reference = Reference::new(sight.ellipsoid, sight.eye_ecef_m);
         let rays = SightUniform::new(sight, &reference, to.frame.depth, to.frame.size_px);
-        // Uniforms never grow, so their bindings stay.
-        let mut bytes = self.sight.write(device, queue, bytemuck::bytes_of(&rays)).0;
         let pieces = bytemuck::cast_slice(&subject.selection.segments.pieces);
-        bytes += self.segments.write(device, queue, pieces).0;
+        let mut bytes = self.segments.write(device, queue, pieces).0;
         self.layers.resize_with(to.layers.len(), || None);
         for (index, (layer, wanted)) in to.layers.iter().zip(to.frame.layers).enumerate() {
             let (Some(layer), Some(wanted)) = (layer, wanted) else {
@@ -319,8 +284,7 @@ impl EdgeMesh {
             let uniform = bytemuck::bytes_of(&uniform);
             bytes += kept.uniform.write(device, queue, uniform).0;
             if to.moved[index] || kept.alongs.as_ref() != Some(alongs) {
-                let (sight, edge) = (&self.sight.buffer, &kept.uniform.buffer);
-                let buffers = [sight, edge, &layer.reaches.buffer, alongs];
+                let buffers = [&kept.uniform.buffer, &layer.reaches.buffer, alongs];
                 kept.group = Some(edge_group(device, to.pipelines, buffers));
                 kept.alongs = Some(alongs.clone());
             }
@@ -341,10 +305,41 @@ impl EdgeMeshLayer {
     }
 }
 
+/// A target of the edge pass.
+pub(crate) fn edge_target(device: &wgpu::Device, size_px: UVec2) -> wgpu::TextureView {
+    let usage = wgpu::TextureUsages::RENDER_ATTACHMENT
+        | wgpu::TextureUsages::TEXTURE_BINDING
+        | wgpu::TextureUsages::COPY_SRC;
+    texture(device, size_px, EDGE_FORMAT, usage)
+}
+
+fn texture(
+    device: &wgpu::Device,
+    size_px: UVec2,
+    format: wgpu::TextureFormat,
+    usage: wgpu::TextureUsages,
+) -> wgpu::TextureView {
+    let texture = device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("globefill edges"),
+        size: wgpu::Extent3d {
+            width: size_px.x,
+            height: size_px.y,
+            depth_or_array_layers: 1,
+        },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage,
+        view_formats: &[],
+    });
+    texture.create_view(&wgpu::TextureViewDescriptor::default())
+}
+
 fn edge_group(
     device: &wgpu::Device,
     pipelines: &EdgePipelines,
-    buffers: [&wgpu::Buffer; 4],
+    buffers: [&wgpu::Buffer; 3],
 ) -> wgpu::BindGroup {
     let entries: Vec<_> = (0..)
         .zip(buffers)
@@ -357,21 +352,6 @@ fn edge_group(
         label: Some("globefill edge"),
         layout: &pipelines.edge_layout,
         entries: &entries,
-    })
-}
-
-fn depth_group(
-    device: &wgpu::Device,
-    pipelines: &EdgePipelines,
-    depth: &wgpu::TextureView,
-) -> wgpu::BindGroup {
-    device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: Some("globefill edge depth"),
-        layout: &pipelines.depth_layout,
-        entries: &[wgpu::BindGroupEntry {
-            binding: 0,
-            resource: wgpu::BindingResource::TextureView(&depth_only(depth)),
-        }],
     })
 }
 

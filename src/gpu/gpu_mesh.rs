@@ -22,12 +22,10 @@ pub(crate) struct GpuMesh {
     pub arcs: wgpu::Buffer,
     /// Vertex indices of the cap triangles.
     pub cap_indices: wgpu::Buffer,
-    #[allow(dead_code, reason = "drawn once styles ask for edges")]
     /// Made when dashes are first wanted.
     alongs: OnceLock<Alongs>,
 }
 
-#[allow(dead_code, reason = "drawn once styles ask for edges")]
 /// How far along its arc each boundary slot lies, steps of 1/64 m.
 pub(crate) struct Alongs {
     pub by_slot: Vec<u32>,
@@ -75,7 +73,6 @@ impl GpuMesh {
         }
     }
 
-    #[allow(dead_code, reason = "drawn once styles ask for edges")]
     /// Places along the arcs of `mesh`, which this is the upload of: 4 bytes a boundary vertex or arc,
     /// on both sides, from the first call on.
     pub(crate) fn alongs(&self, device: &wgpu::Device, mesh: &FillMesh) -> &Alongs {
@@ -94,7 +91,6 @@ impl GpuMesh {
         })
     }
 
-    #[allow(dead_code, reason = "drawn once styles ask for edges")]
     /// The places, if dashes were ever wanted.
     pub(crate) fn known_alongs(&self) -> Option<&Alongs> {
         self.alongs.get()

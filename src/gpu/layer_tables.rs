@@ -7,10 +7,11 @@ use wgpu::util::DeviceExt as _;
 use crate::{
     error::RendererError,
     frame::code::{Mantissa, PlaneSums},
+    frame::edge_draws::LayerEdges,
     frame::layers::{Layer, Layering, Styled},
     frame::placed::PatternPlace,
     gpu::planes::Planes,
-    gpu::style_table::{StyleSource, StyleTable},
+    gpu::style_table::{StyleSource, StyleTable, edges_of},
     options::CountTechnique,
 };
 
@@ -23,6 +24,10 @@ pub(crate) struct LayerTables {
     pub styles: Vec<Option<StyleTable>>,
     /// Where their patterns lie.
     pub places: Vec<PatternPlace>,
+    /// Of the layers with strokes or smooth edges: which boundaries are measured, how far around.
+    pub edges: Vec<Option<LayerEdges>>,
+    /// Whether a stroke has dashes.
+    pub dashed: bool,
     /// Bytes uploaded for the tables.
     pub bytes: u64,
     mantissa: Mantissa,
@@ -54,8 +59,13 @@ impl LayerTables {
         let styles: Vec<Option<StyleTable>> = layering
             .layers
             .iter()
-            .map(|layer| StyleTable::new(device, layer, from, false, &mut places))
+            .map(|layer| StyleTable::new(device, layer, from, &mut places))
             .collect();
+        let edges = layering
+            .layers
+            .iter()
+            .map(|layer| edges_of(layer, from))
+            .collect::<Result<_, _>>()?;
         let style_buffers = styles.iter().flatten().map(|table| &table.styles);
         Ok(Self {
             bytes: tables
@@ -66,6 +76,8 @@ impl LayerTables {
             layering,
             styles,
             places,
+            edges,
+            dashed: from.any_dashes(),
             tables,
             mantissa,
         })

@@ -2,17 +2,24 @@
 
 use std::collections::HashMap;
 
+use glam::UVec2;
+
 use crate::{
-    gpu::pipelines::layout, gpu::style_table::Needs, gpu::surface_binding::surface_layout,
-    options::RendererOptions, shaders,
+    gpu::edge_pipelines::EdgePipelines, gpu::edge_view::edge_target, gpu::pipelines::layout,
+    gpu::style_table::Needs, gpu::surface_binding::surface_layout, options::RendererOptions,
+    shaders,
 };
 
 /// Layouts, the shader module and the pipelines made so far.
 pub(crate) struct StylePipelines {
     options: RendererOptions,
-    /// Styles of a layer, places of patterns.
+    /// Styles of a layer, places of patterns, distances from boundaries.
     pub style_layout: wgpu::BindGroupLayout,
     pub surface_layout: wgpu::BindGroupLayout,
+    /// One texel, for layers whose boundaries are not measured.
+    pub no_edges: wgpu::TextureView,
+    /// Made when a frame first needs distances from boundaries.
+    pub edges: Option<EdgePipelines>,
     pipeline_layout: wgpu::PipelineLayout,
     module: wgpu::ShaderModule,
     made: HashMap<Needs, wgpu::RenderPipeline>,
@@ -33,7 +40,13 @@ impl StylePipelines {
             has_dynamic_offset: false,
             min_binding_size: None,
         };
-        let style_layout = layout(device, "globefill styles", fragment, &[read; 2]);
+        let edges = wgpu::BindingType::Texture {
+            sample_type: wgpu::TextureSampleType::Uint,
+            view_dimension: wgpu::TextureViewDimension::D2,
+            multisampled: false,
+        };
+        let bindings = [read, read, edges];
+        let style_layout = layout(device, "globefill styles", fragment, &bindings);
         let surface_layout = surface_layout(device, options.sample_count, both);
         let groups = [layer_layout, &style_layout, &surface_layout, image_layout];
         let source = shaders::resolve_styled(options.sample_count);
@@ -44,6 +57,8 @@ impl StylePipelines {
                 bind_group_layouts: &groups.map(Some),
                 immediate_size: 0,
             }),
+            no_edges: edge_target(device, UVec2::ONE),
+            edges: None,
             style_layout,
             surface_layout,
             module: device.create_shader_module(wgpu::ShaderModuleDescriptor {

@@ -3,7 +3,9 @@
 use wgpu::util::DeviceExt as _;
 
 use crate::{
-    frame::layers::{Layer, Styled},
+    error::RendererError,
+    frame::edge_draws::LayerEdges,
+    frame::layers::{FillOf, Layer, Styled},
     frame::placed::PatternPlace,
     gpu::image_arrays::{ImageArrays, ImageSlot},
     hatch::HatchKind,
@@ -70,6 +72,54 @@ pub(crate) struct StyleSource<'a> {
     /// By mesh and fill: where the fill's pattern lies.
     pub places: &'a [&'a [Option<PatternPlace>]],
     pub images: Option<&'a ImageArrays>,
+    /// Whether all edges are smooth.
+    pub smooth: bool,
+}
+
+impl StyleSource<'_> {
+    /// Whether a stroke has dashes.
+    pub(crate) fn any_dashes(&self) -> bool {
+        let dashed = |style: &FillStyle| style.stroke.is_some_and(|stroke| stroke.dash.is_some());
+        let mut styles = self.styled.iter().flat_map(|styled| styled.styles);
+        styles.any(|style| style.shows() && dashed(style))
+    }
+}
+
+/// Most fills in a layer whose boundaries are measured: ids of both sides share 32 bits.
+const MOST_EDGED: usize = 0xffff;
+/// How far around boundaries smooth edges need them measured, pixels.
+const SMOOTH_PX: f32 = 0.5;
+
+/// The boundaries of a layer that strokes and smooth edges need.
+pub(crate) fn edges_of(
+    layer: &Layer,
+    from: &StyleSource<'_>,
+) -> Result<Option<LayerEdges>, RendererError> {
+    let smooth_px = if from.smooth { SMOOTH_PX } else { 0.0 };
+    let reach = |fill: &FillOf| {
+        let style = &from.styled[fill.mesh].styles[fill.fill as usize];
+        let Some(stroke) = &style.stroke else {
+            return [0.0, smooth_px];
+        };
+        let share = match stroke.align {
+            Align::Inner | Align::Outer => 1.0,
+            Align::Center => 0.5,
+        };
+        let [metres, pixels] = metres_or_pixels(stroke.width);
+        [share * metres, (share * pixels).max(smooth_px)]
+    };
+    let reaches: Vec<[f32; 2]> = std::iter::once([0.0; 2])
+        .chain(layer.fills.iter().map(reach))
+        .collect();
+    if reaches.iter().all(|reach| *reach == [0.0; 2]) {
+        return Ok(None);
+    }
+    let fills = layer.fills.len();
+    if fills > MOST_EDGED {
+        return Err(RendererError::TooManyFills { fills });
+    }
+    let code = layer.code;
+    Ok(Some(LayerEdges { code, reaches }))
 }
 
 impl StyleTable {
@@ -79,14 +129,13 @@ impl StyleTable {
         device: &wgpu::Device,
         layer: &Layer,
         from: &StyleSource<'_>,
-        smooth: bool,
         places: &mut Vec<PatternPlace>,
     ) -> Option<Self> {
         let looks = layer.fills.iter().map(|fill| {
             let (mesh, fill) = (fill.mesh, fill.fill as usize);
             (&from.styled[mesh].styles[fill], from.places[mesh][fill])
         });
-        let mut needs = if smooth { SMOOTH } else { 0 };
+        let mut needs = if from.smooth { SMOOTH } else { 0 };
         let mut records: Vec<StyleRecord> = Vec::new();
         let mut slots: Vec<Option<ImageSlot>> = Vec::new();
         for (style, place) in looks {

@@ -4,6 +4,8 @@ use crate::{
     frame::placed::{PatternPlace, Placed},
     frame::reference::Reference,
     frame::sight_uniform::SightUniform,
+    gpu::count::Drawn,
+    gpu::edge_view::{EdgeCost, EdgeFrame, EdgeSubject, EdgeView, edge_cost},
     gpu::image_arrays::ImageArrays,
     gpu::layer_tables::LayerTables,
     gpu::stream_buffer::StreamBuffer,
@@ -14,8 +16,12 @@ use crate::{
 
 /// Buffers and bindings of one view.
 pub(crate) struct StyleView {
-    pub surface: SurfaceBinding,
+    surface: SurfaceBinding,
     places: StreamBuffer,
+    /// Only while boundaries are measured.
+    edges: Option<EdgeView>,
+    /// What measuring them costs.
+    pub edge_cost: EdgeCost,
     /// By layer; none where plain colours say all.
     layers: Vec<Option<StyledLayer>>,
     /// Which layer tables are bound.
@@ -35,6 +41,9 @@ pub(crate) struct StyleFrame<'a> {
     pub revision: u64,
     pub reference: Reference,
     pub uniform: SightUniform,
+    pub edges: EdgeFrame<'a>,
+    /// The meshes, in the order they are drawn in.
+    pub subjects: &'a [EdgeSubject<'a>],
 }
 
 impl StyleView {
@@ -43,6 +52,8 @@ impl StyleView {
         Self {
             surface: SurfaceBinding::new(device),
             places: StreamBuffer::new(device, "globefill places", storage),
+            edges: None,
+            edge_cost: EdgeCost::default(),
             layers: Vec::new(),
             revision: 0,
         }
@@ -53,7 +64,7 @@ impl StyleView {
         &mut self,
         device: &wgpu::Device,
         queue: &wgpu::Queue,
-        pipelines: &StylePipelines,
+        pipelines: &mut StylePipelines,
         with: &StyleFrame<'_>,
     ) -> u64 {
         let placed: Vec<Placed> = with
@@ -65,23 +76,47 @@ impl StyleView {
         let bytes = self.surface.write(device, queue, &with.uniform);
         let contents = bytemuck::cast_slice(&placed);
         let (uploaded, moved) = self.places.write(device, queue, contents);
-        if moved || self.revision != with.revision || self.layers.is_empty() {
+        let (edge_bytes, replaced) = self.prepare_edges(device, queue, pipelines, with);
+        if moved || replaced || self.revision != with.revision || self.layers.is_empty() {
             self.revision = with.revision;
             self.bind(device, pipelines, with.tables);
         }
-        bytes + uploaded
+        bytes + uploaded + edge_bytes
+    }
+
+    /// Whatever measuring boundaries needs; the bytes, and whether what is bound of it changed.
+    fn prepare_edges(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        pipelines: &mut StylePipelines,
+        with: &StyleFrame<'_>,
+    ) -> (u64, bool) {
+        let Some(edge_pipelines) = &mut pipelines.edges else {
+            return (0, false);
+        };
+        if with.edges.layers.iter().all(Option::is_none) {
+            self.edge_cost = EdgeCost::default();
+            return (0, self.edges.take().is_some());
+        }
+        let selections = with.subjects.iter().map(|subject| subject.selection);
+        self.edge_cost = edge_cost(with.edges.layers, selections);
+        let edges = self.edges.get_or_insert_default();
+        edges.prepare(device, queue, edge_pipelines, &with.edges, with.subjects)
     }
 
     fn bind(&mut self, device: &wgpu::Device, pipelines: &StylePipelines, tables: &LayerTables) {
-        let styled = tables.styles.iter().map(|table| {
+        let styled = tables.styles.iter().enumerate().map(|(layer, table)| {
             let table = table.as_ref()?;
-            let buffers = [&table.styles, &self.places.buffer];
+            let edges = self.edges.as_ref().and_then(|edges| edges.target(layer));
+            let resources = [
+                table.styles.as_entire_binding(),
+                self.places.buffer.as_entire_binding(),
+                wgpu::BindingResource::TextureView(edges.unwrap_or(&pipelines.no_edges)),
+            ];
             let entries: Vec<_> = (0..)
-                .zip(buffers)
-                .map(|(binding, buffer)| wgpu::BindGroupEntry {
-                    binding,
-                    resource: buffer.as_entire_binding(),
-                })
+                .zip(resources)
+                .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource })
                 .collect();
             Some(StyledLayer {
                 needs: table.needs,
@@ -94,6 +129,24 @@ impl StyleView {
             })
         });
         self.layers = styled.collect();
+    }
+
+    /// Binds the depth, and records measuring how far its pixels are from boundaries. `meshes` are the
+    /// subjects of [`Self::prepare`].
+    pub(crate) fn count(
+        &mut self,
+        device: &wgpu::Device,
+        pipelines: &StylePipelines,
+        encoder: &mut wgpu::CommandEncoder,
+        depth: &wgpu::TextureView,
+        meshes: &[Drawn<'_>],
+    ) {
+        self.surface.bind(device, &pipelines.surface_layout, depth);
+        if let (Some(edges), Some(edge_pipelines), Some(surface)) =
+            (&self.edges, &pipelines.edges, self.surface.group())
+        {
+            edges.record(edge_pipelines, encoder, surface, meshes);
+        }
     }
 
     /// How many draws resolve a layer; none where plain colours do.

@@ -4,6 +4,7 @@ use super::{MeshId, Renderer};
 use crate::{
     error::RendererError,
     frame::code::PlaneSums,
+    frame::edge_draws::EdgeWants,
     frame::layers::Styled,
     frame::placed::PatternPlace,
     frame::select::{LayerDraws, Selection},
@@ -106,6 +107,7 @@ impl Renderer {
             styled: &styled,
             places: &places,
             images: self.images.as_ref(),
+            smooth: self.options.smooth_edges && self.options.sample_count == 1,
         };
         LayerTables::new(&self.device, &from, technique, self.mantissa)
     }
@@ -139,7 +141,8 @@ impl Renderer {
     }
 
     fn select(&self, frame: &Frame, choice: Choice) -> Result<Vec<Selected>, RendererError> {
-        let layering = &self.layers(choice)?.layering;
+        let tables = self.layers(choice)?;
+        let layering = &tables.layering;
         let layer_count = layering.layers.len();
         self.meshes
             .iter()
@@ -147,9 +150,16 @@ impl Renderer {
             .map(|((&id, resident), codes)| {
                 let mesh = &resident.mesh;
                 let sight = Sight::new(mesh.ellipsoid, mesh.sag_m, frame, &self.options)?;
+                let alongs = tables
+                    .dashed
+                    .then(|| resident.gpu.alongs(&self.device, mesh));
+                let wants = EdgeWants {
+                    layers: &tables.edges,
+                    alongs: alongs.map(|alongs| alongs.by_slot.as_slice()),
+                };
                 Ok(Selected {
                     id,
-                    selection: Selection::of(mesh, codes, layer_count, &sight),
+                    selection: Selection::of(mesh, codes, layer_count, &sight, &wants),
                     sight,
                 })
             })
@@ -274,6 +284,11 @@ impl Renderer {
                 .and_then(|styles| styles.draws_of(layer));
             stats.styled_layers += u32::from(styled.is_some());
             stats.draws += styled.unwrap_or(1);
+        }
+        if let Some(styles) = &view.styles {
+            stats.edge_passes = styles.edge_cost.passes;
+            stats.draws += styles.edge_cost.draws;
+            stats.vertices += styles.edge_cost.vertices;
         }
         stats.passes = stats.layers;
         if prepared.technique == CountTechnique::Stencil && stats.layers > 0 {

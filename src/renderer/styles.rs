@@ -1,9 +1,11 @@
 //! How the fills of a renderer look: styles, images, and resolving with patterns.
 
-use glam::DVec2;
+use std::collections::BTreeMap;
+
+use glam::{DVec2, UVec2};
 
 use super::{
-    MeshId, Renderer,
+    MeshId, Renderer, Resident,
     prepare::{Choice, Selected},
 };
 use crate::{
@@ -14,10 +16,11 @@ use crate::{
     frame::reference::Reference,
     frame::sight_uniform::SightUniform,
     frame::window::Window,
+    gpu::edge_pipelines::EdgePipelines,
+    gpu::edge_view::{EdgeFrame, EdgeSubject},
     gpu::image_arrays::ImageArrays,
     gpu::layer_tables::LayerTables,
     gpu::style_pipelines::StylePipelines,
-    gpu::style_table::Needs,
     gpu::style_view::{StyleFrame, StyleView},
     hatch::Hatch,
     image::{Image, ImageId},
@@ -156,9 +159,15 @@ impl Renderer {
         selections: &[Selected],
         choice: Choice,
     ) -> Result<u64, RendererError> {
-        let tables = self.layers(choice)?;
-        let needs: Vec<Needs> = tables.styles.iter().flatten().map(|it| it.needs).collect();
-        let Some(Selected { sight, .. }) = selections.first().filter(|_| !needs.is_empty()) else {
+        let tables = match choice {
+            Choice::Wanted => &self.layers,
+            Choice::Fallback => &self.fallback,
+        };
+        let styled = |tables: &&LayerTables| tables.styles.iter().any(Option::is_some);
+        let tables = tables.as_ref().and_then(|tables| tables.as_ref().ok());
+        let (Some(tables), Some(Selected { sight, .. })) =
+            (tables.filter(styled), selections.first())
+        else {
             view.styles = None;
             return Ok(0);
         };
@@ -174,64 +183,54 @@ impl Renderer {
             let layer_layout = &self.pipelines.resolve_layout;
             StylePipelines::new(device, self.options, layer_layout, &images.layout)
         });
-        for needs in needs {
-            pipelines.ensure(device, needs);
+        if tables.edges.iter().any(Option::is_some) && pipelines.edges.is_none() {
+            let surface_layout = &pipelines.surface_layout;
+            let edges = EdgePipelines::new(device, &self.pipelines, surface_layout, self.options);
+            pipelines.edges = Some(edges);
         }
-        let Some(pipelines) = &self.style_pipelines else {
-            return Ok(0);
-        };
+        for table in tables.styles.iter().flatten() {
+            pipelines.ensure(device, table.needs);
+        }
         let frame = &prepared.frame;
         let reference = Reference::new(sight.ellipsoid, frame.camera.eye_ecef_m);
         let depth = self.options.depth;
-        let tables = self.layers(choice)?;
         let mut uniform = SightUniform::new(sight, &reference, depth, frame.size_px);
-        uniform.window = self.window(tables, selections).pixels(frame.size_px, 0.0);
+        uniform.window = window(&self.meshes, tables, selections, frame.size_px);
+        let subjects: Vec<EdgeSubject<'_>> = selections
+            .iter()
+            .map(|selected| EdgeSubject {
+                gpu: &self.meshes[&selected.id].gpu,
+                sight: &selected.sight,
+                selection: &selected.selection,
+            })
+            .collect();
         let with = StyleFrame {
             tables,
             revision: self.revision,
             uniform,
             reference,
+            edges: EdgeFrame {
+                size_px: frame.size_px,
+                depth,
+                layers: &tables.edges,
+                dashed: tables.dashed,
+            },
+            subjects: &subjects,
         };
-        let styles = view
-            .styles
-            .get_or_insert_with(|| StyleView::new(&self.device));
-        Ok(styles.prepare(&self.device, queue, pipelines, &with))
+        let styles = view.styles.get_or_insert_with(|| StyleView::new(device));
+        Ok(styles.prepare(device, queue, pipelines, &with))
     }
 
-    /// What holds all fills of the layers that have styles.
-    fn window(&self, tables: &LayerTables, selections: &[Selected]) -> Window {
-        let mut window = Window::EMPTY;
-        for Selected {
-            id,
-            sight,
-            selection,
-        } in selections
-        {
-            let pieces = &self.meshes[id].mesh.pieces;
-            for (draws, _) in selection
-                .layers
-                .iter()
-                .zip(&tables.styles)
-                .filter(|(_, styles)| styles.is_some())
-            {
-                for (piece, _) in pieces
-                    .iter()
-                    .zip(&draws.codes[1..])
-                    .filter(|&(_, &code)| code != 0)
-                {
-                    window = window.joined(sight.window_of(&piece.bounds));
-                }
-            }
-            window = window.common(sight.globe_window());
-        }
-        window
-    }
-
-    /// Binds the depth that patterns are placed by.
-    pub(super) fn bind_surface(&self, view: &mut View, depth: &wgpu::TextureView) {
+    /// Binds the depth that patterns are placed by, and measures how far pixels are from boundaries.
+    pub(super) fn count_styles(
+        &self,
+        view: &mut View,
+        encoder: &mut wgpu::CommandEncoder,
+        depth: &wgpu::TextureView,
+    ) {
         if let (Some(styles), Some(pipelines)) = (&mut view.styles, &self.style_pipelines) {
-            let layout = &pipelines.surface_layout;
-            styles.surface.bind(&self.device, layout, depth);
+            let meshes = self.drawn(&view.meshes);
+            styles.count(&self.device, pipelines, encoder, depth, &meshes);
         }
     }
 
@@ -312,4 +311,39 @@ fn image_place(mesh: &FillMesh, fill: u32, image: &ImageFill) -> PatternPlace {
             PatternPlace::Map(place)
         }
     }
+}
+
+/// What holds all fills of the layers that have styles, and what their strokes add.
+fn window(
+    meshes: &BTreeMap<MeshId, Resident>,
+    tables: &LayerTables,
+    selections: &[Selected],
+    size_px: UVec2,
+) -> [f32; 4] {
+    let reaches = tables
+        .edges
+        .iter()
+        .flatten()
+        .flat_map(|edges| &edges.reaches);
+    let [reach_m, reach_px] = reaches.fold([0.0_f32; 2], |most, reach| {
+        std::array::from_fn(|unit| most[unit].max(reach[unit]))
+    });
+    let mut window = Window::EMPTY;
+    for Selected {
+        id,
+        sight,
+        selection,
+    } in selections
+    {
+        let pieces = &meshes[id].mesh.pieces;
+        let layers = selection.layers.iter().zip(&tables.styles);
+        for (draws, _) in layers.filter(|(_, styles)| styles.is_some()) {
+            let codes = pieces.iter().zip(&draws.codes[1..]);
+            for (piece, _) in codes.filter(|&(_, &code)| code != 0) {
+                window = window.joined(sight.window_of(&piece.bounds, f64::from(reach_m)));
+            }
+        }
+        window = window.common(sight.globe_window());
+    }
+    window.pixels(size_px, f64::from(reach_px) + 1.0)
 }

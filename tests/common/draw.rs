@@ -34,6 +34,7 @@ impl IdPainter {
             depth: surface.range.convention(),
             sample_count: surface.samples(),
             count,
+            ..Default::default()
         };
         let mut renderer = Renderer::new(&gpu.device, options).expect("the options are sound");
         let fills = mesh.fills.len() as u32;

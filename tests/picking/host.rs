@@ -56,6 +56,7 @@ impl<'a> Host<'a> {
             depth: surface.range.convention(),
             sample_count: surface.samples(),
             count,
+            ..Default::default()
         };
         Self {
             gpu,
