@@ -10,9 +10,6 @@
 // to the eye or, seen from far away, of the distance between foot points, whichever is greater. Comparing
 // surface points instead would add the rounding of lowering them: no better near by, worse from the Moon.
 
-// Whether places along arcs are wanted.
-override DASHED: bool = false;
-
 struct EdgeSight {
     // The eye's foot point in steps of 1/128 m, what the steps leave over in 2^-17 m, and metres from the
     // true one to the encoded one.
@@ -30,8 +27,10 @@ struct EdgeSight {
 @group(3) @binding(0) var<uniform> edge_sight: EdgeSight;
 // By id of the layer, 0 for none: how far its edges are asked for, metres and pixels, which add up.
 @group(3) @binding(1) var<storage, read> reaches: array<vec2<f32>>;
-// By slot: steps of 1/64 m from the start of the arc.
-@group(3) @binding(2) var<storage, read> alongs: array<u32>;
+// By slot: the arc of the chord that starts there, or NO_CHORD; steps of 1/64 m from the arc's start.
+@group(3) @binding(2) var<storage, read> slots: array<vec2<u32>>;
+
+const NO_CHORD: u32 = 0xffffffffu;
 
 // Corners of a cube as a strip of fourteen: which are ahead, to the left, on top.
 const AHEAD: u32 = 0x287au;
@@ -200,15 +199,12 @@ fn vs_chord(
     @builtin(vertex_index) corner: u32,
     @builtin(instance_index) slot: u32,
 ) -> EdgeVertex {
-    let arc = arc_of(slot);
-    if slot + 1u >= arcs[arc].break_slot {
+    let start = slots[slot];
+    if start.x == NO_CHORD {
         return nowhere();
     }
-    var along = vec2<u32>(0u);
-    if DASHED {
-        along = vec2<u32>(alongs[slot], alongs[slot + 1u]);
-    }
-    return prism(Chord(vertices[slot], vertices[slot + 1u], arc, along), corner);
+    let along = vec2<u32>(start.y, slots[slot + 1u].y);
+    return prism(Chord(vertices[slot], vertices[slot + 1u], start.x, along), corner);
 }
 
 // The pieces that stand for refined chords.
@@ -323,11 +319,8 @@ fn fs_edge(in: EdgeVertex) -> EdgeTexel {
     if strays(place, 0.0) || !(near.off <= limit) {
         discard;
     }
-    var along = 0u;
-    if DASHED {
-        let share = clamp(near.passed / in.start.w, 0.0, 1.0);
-        along = in.sides.y + u32(share * f32(in.sides.z - in.sides.y) + 0.5);
-    }
+    let share = clamp(near.passed / in.start.w, 0.0, 1.0);
+    let along = in.sides.y + u32(share * f32(in.sides.z - in.sides.y) + 0.5);
     let side = dot(foot - in.start.xyz, in.left.xyz);
     var out: EdgeTexel;
     out.texel = vec4<u32>(

@@ -22,6 +22,7 @@ const SEEN: &str = include_str!("../shaders/seen.wgsl");
 const SURFACE: &str = include_str!("../shaders/surface.wgsl");
 const PIXEL: &str = include_str!("../shaders/pixel.wgsl");
 const EDGE: &str = include_str!("../shaders/edge.wgsl");
+const EDGE_FLAT: &str = include_str!("../shaders/edge_flat.wgsl");
 const STROKE: &str = include_str!("../shaders/stroke.wgsl");
 const SENSOR: &str = include_str!("../shaders/sensor.wgsl");
 const DEPTH: &str = include_str!("../shaders/depth.wgsl");
@@ -101,7 +102,15 @@ fn depth(sample_count: u32) -> &'static str {
 
 /// The distances to the nearest boundaries.
 pub fn edge(sample_count: u32) -> String {
-    let parts = [EXTRUDE, FACE, SURFACE, PIXEL, depth(sample_count), EDGE];
+    let parts = [
+        EXTRUDE,
+        FACE,
+        SURFACE,
+        PIXEL,
+        depth(sample_count),
+        EDGE,
+        EDGE_FLAT,
+    ];
     parts.concat()
 }
 

@@ -35,8 +35,55 @@ pub(crate) struct LayerEdges {
 pub(crate) struct EdgeWants<'a> {
     /// By layer; may be empty for none at all.
     pub layers: &'a [Option<LayerEdges>],
-    /// By boundary slot: places along the arcs, where dashes are wanted.
-    pub alongs: Option<&'a [u32]>,
+    /// Every boundary slot; may be empty where no layer asks for edges.
+    pub slots: &'a [EdgeSlot],
+}
+
+/// A boundary slot as the edge pass reads it.
+#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+#[repr(C)]
+pub(crate) struct EdgeSlot {
+    /// The arc of the chord that starts here, or [`Self::NO_CHORD`].
+    pub arc: u32,
+    /// Steps of 1/64 m from the start of the arc.
+    pub along: u32,
+}
+
+impl EdgeSlot {
+    /// As in edge.wgsl.
+    pub(crate) const NO_CHORD: u32 = u32::MAX;
+}
+
+/// What the edge pass draws.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum EdgeInput {
+    /// Prisms around stored chords.
+    Chords,
+    /// Prisms around the pieces of refined chords.
+    Segments,
+    /// Rectangles on the screen around stored chords that are far away.
+    Flat,
+}
+
+impl EdgeInput {
+    pub(crate) const ALL: [Self; 3] = [Self::Chords, Self::Segments, Self::Flat];
+
+    /// Vertices that a chord takes.
+    pub(crate) fn corners(self) -> u32 {
+        match self {
+            Self::Chords | Self::Segments => 14,
+            Self::Flat => 4,
+        }
+    }
+
+    /// Entry points of edge.wgsl and edge_flat.wgsl.
+    pub(crate) fn entries(self) -> [&'static str; 2] {
+        match self {
+            Self::Chords => ["vs_chord", "fs_edge"],
+            Self::Segments => ["vs_segment", "fs_edge"],
+            Self::Flat => ["vs_flat", "fs_flat"],
+        }
+    }
 }
 
 /// Edges of one mesh in one layer.
@@ -44,6 +91,8 @@ pub(crate) struct EdgeWants<'a> {
 pub(crate) struct EdgeDraws {
     /// Boundary slots as runs of arcs, without refined chords. The last slot of a run starts no chord.
     pub chords: Vec<Range<u32>>,
+    /// The same of arcs so far away that they are measured on the screen.
+    pub flat: Vec<Range<u32>>,
     /// Pieces of refined chords: positions in [`Selection::segments`](super::select::Selection).
     pub segments: Vec<Range<u32>>,
 }
@@ -54,7 +103,7 @@ pub(crate) struct EdgeDraws {
 pub(crate) struct EdgeSegment {
     pub ends: [FixedVertex; 2],
     pub arc: u32,
-    /// Places of the ends along the arc; 0 unless dashes are wanted.
+    /// Places of the ends along the arc.
     pub along: [u32; 2],
     pub padding: u32,
 }
@@ -63,7 +112,12 @@ pub(crate) struct EdgeSegment {
 pub(crate) struct ArcEdges {
     /// By layer, then by arc: whether they are drawn. Empty for layers without edges.
     wanted: Vec<Vec<bool>>,
+    /// By arc: whether it is measured on the screen.
+    flat: Vec<bool>,
 }
+
+/// Chords that are measured on the screen span no more than this share of their distance.
+const FLAT_SHARE: f64 = 0.25;
 
 impl ArcEdges {
     pub(crate) fn new(
@@ -84,9 +138,18 @@ impl ArcEdges {
                 .collect(),
             None => Vec::new(),
         };
+        let wanted: Vec<Vec<bool>> = wants.layers.iter().enumerate().map(in_layer).collect();
+        let any = |arc: usize| wanted.iter().any(|arcs| arcs.get(arc) == Some(&true));
+        let flat = |(index, arc)| any(index) && is_flat(mesh, arc, sight);
         Self {
-            wanted: wants.layers.iter().enumerate().map(in_layer).collect(),
+            flat: mesh.arcs.iter().enumerate().map(flat).collect(),
+            wanted,
         }
+    }
+
+    /// Whether an arc is measured on the screen.
+    pub(crate) fn flat(&self, arc: usize) -> bool {
+        self.flat[arc]
     }
 
     /// Whether a layer draws the edges of an arc.
@@ -98,6 +161,39 @@ impl ArcEdges {
     /// Whether any layer does.
     pub(crate) fn any(&self, arc: usize) -> bool {
         (0..self.wanted.len()).any(|layer| self.wanted(layer, arc))
+    }
+}
+
+/// Whether relief and sag show less than the pixel budget: half the relief, since the screen shows chords
+/// half way up, and the most that a chord lies below the ellipsoid.
+fn is_flat(mesh: &FillMesh, arc: &Arc, sight: &Sight) -> bool {
+    let distance_m = sight.distance_to_m(&arc.bounds);
+    let budget_m = sight.tolerance_m(distance_m);
+    let half_relief_m = 0.5 * (sight.surface_m.1 - sight.surface_m.0);
+    let first = arc.first_vertex as usize;
+    let chords = mesh.vertices[first..first + arc.vertex_count as usize].windows(2);
+    let longest_squared = chords
+        .map(|ends| ends[0].distance_squared(ends[1]))
+        .fold(0.0, f64::max);
+    let sag_m = longest_squared / (8.0 * mesh.ellipsoid.b_m);
+    half_relief_m + sag_m <= budget_m && longest_squared.sqrt() <= FLAT_SHARE * distance_m
+}
+
+impl EdgeDraws {
+    pub(crate) fn runs(&self, input: EdgeInput) -> &[Range<u32>] {
+        match input {
+            EdgeInput::Chords => &self.chords,
+            EdgeInput::Segments => &self.segments,
+            EdgeInput::Flat => &self.flat,
+        }
+    }
+
+    /// The instances of a run: a chord to each slot but the last, or a piece each.
+    pub(crate) fn chords_of(&self, input: EdgeInput, run: &Range<u32>) -> Range<u32> {
+        match input {
+            EdgeInput::Segments => run.clone(),
+            EdgeInput::Chords | EdgeInput::Flat => run.start..run.end - 1,
+        }
     }
 }
 
@@ -171,12 +267,7 @@ pub(crate) struct EdgeSegments {
 }
 
 impl EdgeSegments {
-    pub(crate) fn new(
-        mesh: &FillMesh,
-        patch: &Patch,
-        edges: &ArcEdges,
-        wants: &EdgeWants<'_>,
-    ) -> Self {
+    pub(crate) fn new(patch: &Patch, edges: &ArcEdges, wants: &EdgeWants<'_>) -> Self {
         let mut segments = Self::default();
         if edges.wanted.iter().all(Vec::is_empty) {
             return segments;
@@ -184,29 +275,17 @@ impl EdgeSegments {
         segments.starts.push(0);
         for chord in &patch.chords {
             if edges.any(chord.arc as usize) {
-                segments.add(mesh, patch, chord, wants.alongs);
+                segments.add(patch, chord, wants.slots);
             }
             segments.starts.push(segments.pieces.len() as u32);
         }
         segments
     }
 
-    fn add(
-        &mut self,
-        mesh: &FillMesh,
-        patch: &Patch,
-        chord: &RefinedChord,
-        alongs: Option<&[u32]>,
-    ) {
+    fn add(&mut self, patch: &Patch, chord: &RefinedChord, slots: &[EdgeSlot]) {
         let points: Vec<FixedVertex> = patch.polyline(chord).collect();
-        let places = match alongs {
-            Some(alongs) => {
-                let first = slot(chord.arc, chord.vertex) as usize;
-                places_between(&points, alongs[first], alongs[first + 1])
-            }
-            None => vec![0; points.len()],
-        };
-        debug_assert!((chord.vertex as usize) < mesh.boundary.len());
+        let first = slot(chord.arc, chord.vertex) as usize;
+        let places = places_between(&points, slots[first].along, slots[first + 1].along);
         let pairs = points.windows(2).zip(places.windows(2));
         self.pieces.extend(pairs.map(|(ends, along)| EdgeSegment {
             ends: [ends[0], ends[1]],
@@ -232,22 +311,32 @@ impl EdgeSegments {
     }
 }
 
-/// How far along its arc each boundary slot lies, steps of 1/64 m, by the chords, which are shorter than
-/// the true edge by less than 3·10⁻⁶ where they are as close to it as 5 m a 16 km. Breaks hold 0.
-pub(crate) fn places_along(mesh: &FillMesh) -> Vec<u32> {
-    let mut places = Vec::with_capacity(mesh.boundary.len() + mesh.arcs.len());
-    for arc in &mesh.arcs {
+/// Every boundary slot, and how far along its arc it lies by the chords, which are shorter than the true
+/// edge by less than 3·10⁻⁶ where they are as close to it as 5 m a 16 km.
+pub(crate) fn edge_slots(mesh: &FillMesh) -> Vec<EdgeSlot> {
+    let mut slots = Vec::with_capacity(mesh.boundary.len() + mesh.arcs.len());
+    for (index, arc) in (0..).zip(&mesh.arcs) {
         let first = arc.first_vertex as usize;
         let mut along_m = 0.0;
         let mut last_m = mesh.vertices[first];
         for &vertex_m in &mesh.vertices[first..first + arc.vertex_count as usize] {
             along_m += vertex_m.distance(last_m);
             last_m = vertex_m;
-            places.push((along_m * STEPS_PER_M).round() as u32);
+            slots.push(EdgeSlot {
+                arc: index,
+                along: (along_m * STEPS_PER_M).round() as u32,
+            });
         }
-        places.push(0);
+        // The last vertex starts no chord, nor does the break.
+        if let Some(last) = slots.last_mut() {
+            last.arc = EdgeSlot::NO_CHORD;
+        }
+        slots.push(EdgeSlot {
+            arc: EdgeSlot::NO_CHORD,
+            along: 0,
+        });
     }
-    places
+    slots
 }
 
 /// Places of the points of a polyline between two given ones, in proportion to its length.
@@ -336,7 +425,7 @@ mod tests {
         }];
         let layering =
             Layering::assign(&styled, CountTechnique::Winding, Mantissa::Single).expect("fits");
-        let alongs = places_along(&mesh);
+        let slots = edge_slots(&mesh);
         let layers: Vec<_> = layering
             .layers
             .iter()
@@ -351,7 +440,7 @@ mod tests {
             .collect();
         let wants = EdgeWants {
             layers: &layers,
-            alongs: Some(&alongs),
+            slots: &slots,
         };
         let (mut stored, mut refined, mut left_out) = (0, 0, 0);
         for (at, height_m) in [
@@ -372,9 +461,7 @@ mod tests {
                 for (index, arc) in mesh.arcs.iter().enumerate() {
                     for vertex in arc.first_vertex..arc.first_vertex + arc.vertex_count - 1 {
                         let first = slot(index as u32, vertex);
-                        let runs = &draws.edges.chords;
-                        let as_stored = runs
-                            .iter()
+                        let as_stored = (draws.edges.chords.iter().chain(&draws.edges.flat))
                             .filter(|run| run.start <= first && first + 1 < run.end)
                             .count();
                         let of_chord = |chord: &&RefinedChord| {
@@ -392,7 +479,8 @@ mod tests {
                             if drawn > 0 {
                                 let ends = [vertex, vertex + 1]
                                     .map(|vertex| encode(mesh.vertices[vertex as usize]));
-                                let places = [first, first + 1].map(|slot| alongs[slot as usize]);
+                                let places =
+                                    [first, first + 1].map(|slot| slots[slot as usize].along);
                                 assert_leads(&selection.segments.pieces[range], ends, places);
                             }
                             drawn

@@ -85,7 +85,7 @@ impl Selection {
                 selection.patch.refine_arc(mesh, index as u32, sight);
             }
         }
-        selection.segments = EdgeSegments::new(mesh, &selection.patch, &edges, wants);
+        selection.segments = EdgeSegments::new(&selection.patch, &edges, wants);
         selection.layers = (0..layer_count)
             .map(|layer| {
                 let in_layer: Vec<u32> = std::iter::once(0)
@@ -99,7 +99,12 @@ impl Selection {
                     walls: wall_runs(mesh, &in_layer, &arc_seen, &selection.patch),
                     patches: patch_runs(mesh, &in_layer, &arc_seen, &selection.patch),
                     edges: EdgeDraws {
-                        chords: slot_runs(mesh, &selection.patch, |arc| edges.wanted(layer, arc)),
+                        chords: slot_runs(mesh, &selection.patch, |arc| {
+                            edges.wanted(layer, arc) && !edges.flat(arc)
+                        }),
+                        flat: slot_runs(mesh, &selection.patch, |arc| {
+                            edges.wanted(layer, arc) && edges.flat(arc)
+                        }),
                         segments: selection
                             .segments
                             .runs(&selection.patch, |arc| edges.wanted(layer, arc)),

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use crate::{
-    frame::edge_draws::EdgeSegment,
+    frame::edge_draws::{EdgeInput, EdgeSegment},
     gpu::pipelines::{Pipelines, layout},
     options::RendererOptions,
     shaders,
@@ -17,17 +17,14 @@ pub(crate) const NEAREST_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Dept
 /// Names a pipeline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct EdgeKey {
-    /// Pieces of refined chords instead of stored chords.
-    pub refined: bool,
-    /// Whether places along arcs are wanted.
-    pub dashed: bool,
+    pub input: EdgeInput,
     /// Whether the projection mirrors the picture.
     pub mirrored: bool,
 }
 
 /// Layouts, the shader module and the pipelines made so far.
 pub(crate) struct EdgePipelines {
-    /// What is particular to edges, reaches, places along arcs.
+    /// What is particular to edges, reaches, slots.
     pub edge_layout: wgpu::BindGroupLayout,
     pipeline_layout: wgpu::PipelineLayout,
     shader: wgpu::ShaderModule,
@@ -88,30 +85,24 @@ impl EdgePipelines {
     }
 
     fn make(&self, device: &wgpu::Device, key: EdgeKey) -> wgpu::RenderPipeline {
-        let entry = if key.refined {
-            "vs_segment"
-        } else {
-            "vs_chord"
-        };
+        let [vertex_entry, fragment_entry] = key.input.entries();
         let attributes = wgpu::vertex_attr_array![0 => Sint32x4, 1 => Sint32x4, 2 => Uint32x4];
         let segments = [Some(wgpu::VertexBufferLayout {
             array_stride: size_of::<EdgeSegment>() as u64,
             step_mode: wgpu::VertexStepMode::Instance,
             attributes: &attributes,
         })];
-        let constants = [("DASHED", f64::from(u8::from(key.dashed)))];
-        let compiled = wgpu::PipelineCompilationOptions {
-            constants: &constants,
-            ..Default::default()
-        };
         device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-            label: Some(entry),
+            label: Some(vertex_entry),
             layout: Some(&self.pipeline_layout),
             vertex: wgpu::VertexState {
                 module: &self.shader,
-                entry_point: Some(entry),
-                compilation_options: compiled.clone(),
-                buffers: if key.refined { &segments } else { &[] },
+                entry_point: Some(vertex_entry),
+                compilation_options: Default::default(),
+                buffers: match key.input {
+                    EdgeInput::Segments => &segments,
+                    EdgeInput::Chords | EdgeInput::Flat => &[],
+                },
             },
             primitive: wgpu::PrimitiveState {
                 topology: wgpu::PrimitiveTopology::TriangleStrip,
@@ -121,7 +112,10 @@ impl EdgePipelines {
                     wgpu::FrontFace::Ccw
                 },
                 // The eye may be inside: back faces alone hold everything.
-                cull_mode: Some(wgpu::Face::Front),
+                cull_mode: match key.input {
+                    EdgeInput::Chords | EdgeInput::Segments => Some(wgpu::Face::Front),
+                    EdgeInput::Flat => None,
+                },
                 ..Default::default()
             },
             depth_stencil: Some(wgpu::DepthStencilState {
@@ -134,8 +128,8 @@ impl EdgePipelines {
             multisample: wgpu::MultisampleState::default(),
             fragment: Some(wgpu::FragmentState {
                 module: &self.shader,
-                entry_point: Some("fs_edge"),
-                compilation_options: compiled,
+                entry_point: Some(fragment_entry),
+                compilation_options: Default::default(),
                 targets: &[Some(EDGE_FORMAT.into())],
             }),
             multiview_mask: None,

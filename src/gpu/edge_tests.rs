@@ -120,10 +120,10 @@ fn draw(
         .collect();
     let sight = Sight::new(mesh.ellipsoid, mesh.sag_m, &frame, &options).expect("valid");
     let uploaded = GpuMesh::new(device, mesh);
-    let alongs = uploaded.alongs(device, mesh);
+    let slots = uploaded.edge_slots(device, mesh);
     let wants = EdgeWants {
         layers: &layers,
-        alongs: Some(&alongs.by_slot),
+        slots: &slots.slots,
     };
     let selection = Selection::of(
         mesh,
@@ -154,7 +154,6 @@ fn draw(
         size_px: frame.size_px,
         depth: options.depth,
         layers: &layers,
-        dashed: true,
     };
     edges.prepare(device, queue, &mut edge_pipelines, &asked, &[subject]);
     let (again, replaced) = edges.prepare(device, queue, &mut edge_pipelines, &asked, &[subject]);

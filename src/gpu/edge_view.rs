@@ -3,7 +3,7 @@
 use glam::UVec2;
 
 use crate::{
-    frame::edge_draws::{EdgeDraws, LayerEdges},
+    frame::edge_draws::{EdgeDraws, EdgeInput, LayerEdges},
     frame::edge_uniform::EdgeUniform,
     frame::reference::Reference,
     frame::select::Selection,
@@ -16,8 +16,6 @@ use crate::{
     options::DepthConvention,
 };
 
-/// Corners of the prism around a chord.
-const CORNERS: u32 = 14;
 /// In the texel of a pixel without an edge, where ids would be; as in stroke.wgsl.
 const NO_EDGE: u32 = u32::MAX;
 
@@ -30,7 +28,6 @@ pub(crate) struct EdgeView {
     layers: Vec<Option<EdgeLayer>>,
     /// In the order of the meshes drawn.
     meshes: Vec<EdgeMesh>,
-    dashed: bool,
     mirrored: bool,
 }
 
@@ -50,8 +47,8 @@ struct EdgeMesh {
 struct EdgeMeshLayer {
     uniform: StreamBuffer,
     group: Option<wgpu::BindGroup>,
-    /// What the group binds as places along arcs.
-    alongs: Option<wgpu::Buffer>,
+    /// The slots that the group binds.
+    slots: Option<wgpu::Buffer>,
 }
 
 /// A mesh as a frame shows it.
@@ -69,8 +66,6 @@ pub(crate) struct EdgeFrame<'a> {
     pub depth: DepthConvention,
     /// By layer.
     pub layers: &'a [Option<LayerEdges>],
-    /// Whether places along arcs are wanted.
-    pub dashed: bool,
 }
 
 /// What the edge passes of a frame cost.
@@ -92,10 +87,9 @@ impl EdgeView {
         frame: &EdgeFrame<'_>,
         subjects: &[EdgeSubject<'_>],
     ) -> (u64, bool) {
-        self.dashed = frame.dashed;
         self.mirrored = subjects.iter().any(|subject| subject.sight.mirrored);
-        for refined in [false, true] {
-            pipelines.ensure(device, self.key(refined));
+        for input in EdgeInput::ALL {
+            pipelines.ensure(device, self.key(input));
         }
         let replaced = self.ensure_targets(device, frame);
         let mut bytes = 0;
@@ -125,10 +119,9 @@ impl EdgeView {
         (bytes, replaced)
     }
 
-    fn key(&self, refined: bool) -> EdgeKey {
+    fn key(&self, input: EdgeInput) -> EdgeKey {
         EdgeKey {
-            refined,
-            dashed: self.dashed,
+            input,
             mirrored: self.mirrored,
         }
     }
@@ -203,17 +196,17 @@ impl EdgeView {
         mesh: &EdgeMesh,
         edges: &EdgeDraws,
     ) {
-        if !edges.chords.is_empty() {
-            pass.set_pipeline(pipelines.get(self.key(false)));
-            for slots in &edges.chords {
-                pass.draw(0..CORNERS, slots.start..slots.end - 1);
+        for input in EdgeInput::ALL {
+            let runs = edges.runs(input);
+            if runs.is_empty() {
+                continue;
             }
-        }
-        if !edges.segments.is_empty() {
-            pass.set_pipeline(pipelines.get(self.key(true)));
-            pass.set_vertex_buffer(0, mesh.segments.buffer.slice(..));
-            for pieces in &edges.segments {
-                pass.draw(0..CORNERS, pieces.clone());
+            pass.set_pipeline(pipelines.get(self.key(input)));
+            if input == EdgeInput::Segments {
+                pass.set_vertex_buffer(0, mesh.segments.buffer.slice(..));
+            }
+            for run in runs {
+                pass.draw(0..input.corners(), edges.chords_of(input, run));
             }
         }
     }
@@ -230,10 +223,12 @@ pub(crate) fn edge_cost<'a>(
     };
     for edges in selections.flat_map(|selection| selection.layers.iter().map(|draws| &draws.edges))
     {
-        cost.draws += (edges.chords.len() + edges.segments.len()) as u32;
-        let chords = edges.chords.iter().map(|slots| slots.len() as u64 - 1);
-        let pieces = edges.segments.iter().map(|pieces| pieces.len() as u64);
-        cost.vertices += u64::from(CORNERS) * (chords.sum::<u64>() + pieces.sum::<u64>());
+        for input in EdgeInput::ALL {
+            let runs = edges.runs(input);
+            cost.draws += runs.len() as u32;
+            let chords = runs.iter().map(|run| edges.chords_of(input, run).len());
+            cost.vertices += u64::from(input.corners()) * chords.sum::<usize>() as u64;
+        }
     }
     cost
 }
@@ -274,19 +269,19 @@ impl EdgeMesh {
                 continue;
             };
             let uniform = EdgeUniform::new(sight, &reference, &rays, &wanted.code);
-            // Where no dashes are wanted nothing is read there.
-            let alongs = subject.gpu.known_alongs().filter(|_| to.frame.dashed);
-            let alongs = alongs.map_or(&layer.reaches.buffer, |alongs| &alongs.buffer);
+            let Some(slots) = subject.gpu.known_edge_slots() else {
+                continue;
+            };
             let mut kept = match self.layers[index].take() {
                 Some(kept) => kept,
                 None => EdgeMeshLayer::new(device),
             };
             let uniform = bytemuck::bytes_of(&uniform);
             bytes += kept.uniform.write(device, queue, uniform).0;
-            if to.moved[index] || kept.alongs.as_ref() != Some(alongs) {
-                let buffers = [&kept.uniform.buffer, &layer.reaches.buffer, alongs];
+            if to.moved[index] || kept.slots.as_ref() != Some(&slots.buffer) {
+                let buffers = [&kept.uniform.buffer, &layer.reaches.buffer, &slots.buffer];
                 kept.group = Some(edge_group(device, to.pipelines, buffers));
-                kept.alongs = Some(alongs.clone());
+                kept.slots = Some(slots.buffer.clone());
             }
             self.layers[index] = Some(kept);
         }
@@ -300,7 +295,7 @@ impl EdgeMeshLayer {
         Self {
             uniform: StreamBuffer::new(device, "globefill edge", uniform),
             group: None,
-            alongs: None,
+            slots: None,
         }
     }
 }

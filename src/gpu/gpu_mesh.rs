@@ -5,7 +5,9 @@ use std::sync::OnceLock;
 use wgpu::util::DeviceExt as _;
 
 use crate::{
-    fill_mesh::FillMesh, frame::edge_draws::places_along, frame::select::slot,
+    fill_mesh::FillMesh,
+    frame::edge_draws::{EdgeSlot, edge_slots},
+    frame::select::slot,
     gpu::fixed_point::encode,
 };
 
@@ -22,13 +24,13 @@ pub(crate) struct GpuMesh {
     pub arcs: wgpu::Buffer,
     /// Vertex indices of the cap triangles.
     pub cap_indices: wgpu::Buffer,
-    /// Made when dashes are first wanted.
-    alongs: OnceLock<Alongs>,
+    /// Made when edges are first wanted.
+    edge_slots: OnceLock<EdgeSlots>,
 }
 
-/// How far along its arc each boundary slot lies, steps of 1/64 m.
-pub(crate) struct Alongs {
-    pub by_slot: Vec<u32>,
+/// Boundary slots as the edge pass reads them.
+pub(crate) struct EdgeSlots {
+    pub slots: Vec<EdgeSlot>,
     pub buffer: wgpu::Buffer,
 }
 
@@ -69,31 +71,31 @@ impl GpuMesh {
                 bytemuck::cast_slice(&caps),
                 wgpu::BufferUsages::INDEX,
             ),
-            alongs: OnceLock::new(),
+            edge_slots: OnceLock::new(),
         }
     }
 
-    /// Places along the arcs of `mesh`, which this is the upload of: 4 bytes a boundary vertex or arc,
-    /// on both sides, from the first call on.
-    pub(crate) fn alongs(&self, device: &wgpu::Device, mesh: &FillMesh) -> &Alongs {
-        self.alongs.get_or_init(|| {
-            let by_slot = places_along(mesh);
+    /// What the edge pass reads of `mesh`, which this is the upload of: 8 bytes a boundary vertex or arc,
+    /// from the first call on.
+    pub(crate) fn edge_slots(&self, device: &wgpu::Device, mesh: &FillMesh) -> &EdgeSlots {
+        self.edge_slots.get_or_init(|| {
+            let slots = edge_slots(mesh);
             let buffer = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-                label: Some("globefill places along arcs"),
-                contents: if by_slot.is_empty() {
-                    &[0; 4]
+                label: Some("globefill edge slots"),
+                contents: if slots.is_empty() {
+                    &[0; 8]
                 } else {
-                    bytemuck::cast_slice(&by_slot)
+                    bytemuck::cast_slice(&slots)
                 },
                 usage: wgpu::BufferUsages::STORAGE,
             });
-            Alongs { by_slot, buffer }
+            EdgeSlots { slots, buffer }
         })
     }
 
-    /// The places, if dashes were ever wanted.
-    pub(crate) fn known_alongs(&self) -> Option<&Alongs> {
-        self.alongs.get()
+    /// The same, if edges were ever wanted.
+    pub(crate) fn known_edge_slots(&self) -> Option<&EdgeSlots> {
+        self.edge_slots.get()
     }
 }
 

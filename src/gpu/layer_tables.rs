@@ -26,8 +26,6 @@ pub(crate) struct LayerTables {
     pub places: Vec<PatternPlace>,
     /// Of the layers with strokes or smooth edges: which boundaries are measured, how far around.
     pub edges: Vec<Option<LayerEdges>>,
-    /// Whether a stroke has dashes.
-    pub dashed: bool,
     /// Bytes uploaded for the tables.
     pub bytes: u64,
     mantissa: Mantissa,
@@ -77,7 +75,6 @@ impl LayerTables {
             styles,
             places,
             edges,
-            dashed: from.any_dashes(),
             tables,
             mantissa,
         })

@@ -76,15 +76,6 @@ pub(crate) struct StyleSource<'a> {
     pub smooth: bool,
 }
 
-impl StyleSource<'_> {
-    /// Whether a stroke has dashes.
-    pub(crate) fn any_dashes(&self) -> bool {
-        let dashed = |style: &FillStyle| style.stroke.is_some_and(|stroke| stroke.dash.is_some());
-        let mut styles = self.styled.iter().flat_map(|styled| styled.styles);
-        styles.any(|style| style.shows() && dashed(style))
-    }
-}
-
 /// Most fills in a layer whose boundaries are measured: ids of both sides share 32 bits.
 const MOST_EDGED: usize = 0xffff;
 /// How far around boundaries smooth edges need them measured, pixels.

@@ -150,12 +150,11 @@ impl Renderer {
             .map(|((&id, resident), codes)| {
                 let mesh = &resident.mesh;
                 let sight = Sight::new(mesh.ellipsoid, mesh.sag_m, frame, &self.options)?;
-                let alongs = tables
-                    .dashed
-                    .then(|| resident.gpu.alongs(&self.device, mesh));
+                let edged = tables.edges.iter().any(Option::is_some);
+                let slots = edged.then(|| resident.gpu.edge_slots(&self.device, mesh));
                 let wants = EdgeWants {
                     layers: &tables.edges,
-                    alongs: alongs.map(|alongs| alongs.by_slot.as_slice()),
+                    slots: slots.map_or(&[], |slots| slots.slots.as_slice()),
                 };
                 Ok(Selected {
                     id,

@@ -213,7 +213,6 @@ impl Renderer {
                 size_px: frame.size_px,
                 depth,
                 layers: &tables.edges,
-                dashed: tables.dashed,
             },
             subjects: &subjects,
         };
