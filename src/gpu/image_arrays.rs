@@ -45,6 +45,8 @@ pub(crate) struct ImageSlot {
 
 impl ImageArrays {
     pub(crate) fn new(device: &wgpu::Device) -> Self {
+        // Software does it at a high price, and Mesa's takes the smallest copy along streaks of pixels.
+        let is_software = device.adapter_info().device_type == wgpu::DeviceType::Cpu;
         let sampler = |label, wrap| {
             device.create_sampler(&wgpu::SamplerDescriptor {
                 label: Some(label),
@@ -53,7 +55,7 @@ impl ImageArrays {
                 mag_filter: wgpu::FilterMode::Linear,
                 min_filter: wgpu::FilterMode::Linear,
                 mipmap_filter: wgpu::MipmapFilterMode::Linear,
-                anisotropy_clamp: ANISOTROPY,
+                anisotropy_clamp: if is_software { 1 } else { ANISOTROPY },
                 ..Default::default()
             })
         };
