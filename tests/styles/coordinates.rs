@@ -11,7 +11,7 @@ use crate::{
         surface::{Surface, Terrain},
     },
     ramps::{Ramps, STEP},
-    stage::{Stage, built, figure, ground, middle_px, over, pixel_m, pose},
+    stage::{Stage, figure, ground, middle_px, over, pixel_m, pose},
 };
 
 /// A picture in its place as the crate is asked for it.

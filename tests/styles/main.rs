@@ -6,7 +6,11 @@ mod common;
 
 mod chart;
 mod coordinates;
+mod coverage;
+mod edges;
+mod ink;
 mod ramps;
+mod spacing;
 mod stage;
 
 use glam::UVec2;
