@@ -5,13 +5,16 @@
 mod common;
 
 mod chart;
+mod colors;
 mod coordinates;
 mod coverage;
 mod edges;
 mod ink;
 mod ramps;
+mod refusals;
 mod spacing;
 mod stage;
+mod unused;
 
 use glam::UVec2;
 use globefill::LonLat;

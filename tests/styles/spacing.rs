@@ -136,11 +136,13 @@ fn measure(surface: &Surface, sheet: &Sheet, drawn: &[[u8; 4]], asked_px: f64) -
             met.least = met.least.min(gap);
             met.most = met.most.max(gap);
             met.gaps += 1;
-            let unit_m = (0.5 * asked_px * way.length()).log2().floor().exp2();
-            // Across a row that meets lines slantwise or where they grow, the middle of the ink is not theirs.
-            if uneven > 0.01 || way.x.abs() < 0.9 * way.length() {
+            // Where lines grow, or are met slantwise, the middle of the ink is not theirs.
+            let level = (asked_px * start.length()).log2();
+            let grows = (level - level.floor() - 0.5).abs() < 0.2;
+            if grows || uneven > 0.02 || way.x.abs() < 0.9 * way.length() {
                 continue;
             }
+            let unit_m = (0.5 * asked_px * way.length()).log2().floor().exp2();
             let beside_m = from_m - (from_m / unit_m).round() * unit_m;
             met.off_px = met.off_px.max(beside_m.abs() / start.length());
         }
