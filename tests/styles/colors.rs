@@ -182,7 +182,7 @@ fn fading_off(used: [bool; 3]) -> f64 {
         };
         let ramps = [0, 1, 2].map(|k| {
             let (low, high) = middle(k);
-            (k != 2).then_some([low, high]).unwrap_or([high, low])
+            if k == 2 { [high, low] } else { [low, high] }
         });
         let [distance_m, pixel_m, angle_rad] = [0, 1, 2].map(|k| {
             let [full, gone] = ramps[k];

@@ -80,7 +80,7 @@ fn judge(surface: &Surface, drawn: &[[u8; 4]], ramps: &Ramps, layout: &Layout, w
         Some(layout.uv(&figure(), point_m))
     };
     let mut off = Off::default();
-    for pixel in 0..surface.pixel_count() {
+    for (pixel, texel) in drawn.iter().enumerate() {
         let Some(uv) = uv_at(pixel) else { continue };
         off.ground += 1;
         let inner = pixel % width > 0 && pixel % width + 1 < width && pixel > width;
@@ -100,7 +100,7 @@ fn judge(surface: &Surface, drawn: &[[u8; 4]], ramps: &Ramps, layout: &Layout, w
         }
         off.judged += 1;
         let wanted = ramps.level(uv, wrap);
-        let found = drawn[pixel].map(f64::from);
+        let found = texel.map(f64::from);
         assert!(
             (found[2] - wanted[2]).abs() < 12.0 || wrap == Wrap::Repeat,
             "{layout:?} {:?}: {found:?}, not {wanted:?}",

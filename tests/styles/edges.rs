@@ -32,8 +32,8 @@ fn edges_off(
     share: f64,
 ) -> BTreeMap<(usize, i64, bool), f64> {
     let mut offs = BTreeMap::new();
-    for pixel in 0..surface.pixel_count() {
-        let ink = f64::from(drawn[pixel][0]) / 255.0;
+    for (pixel, texel) in drawn.iter().enumerate() {
+        let ink = f64::from(texel[0]) / 255.0;
         if !(0.25..0.75).contains(&ink) {
             continue;
         }

@@ -46,10 +46,10 @@ fn picture_off(surface: &Surface, drawn: &[[u8; 4]], ramps: &Ramps, layout: &Lay
             continue;
         }
         judged += 1;
-        for channel in 0..2 {
+        for (channel, &level) in drawn[pixel][..2].iter().enumerate() {
             let levels = uvs.iter().map(|&uv| ramps.level(uv, Wrap::Repeat)[channel]);
             let wanted = levels.sum::<f64>() / samples as f64;
-            let off = f64::from(drawn[pixel][channel]) - wanted;
+            let off = f64::from(level) - wanted;
             worst = worst.max(off.abs() / STEP);
         }
     }

@@ -2,7 +2,10 @@
 //! ends, and where it is repeated often.
 
 use glam::DVec2;
-use globefill::{Extents, FillStyle, ImageFill, LonLat, Pattern, Placement, Polygon, Region, Wrap};
+use globefill::{
+    Extents, FillStyle, HatchKind, ImageFill, Length, LonLat, Pattern, Placement, Polygon, Region,
+    Wrap,
+};
 
 use crate::{
     PLACES, SMALL,
@@ -11,6 +14,8 @@ use crate::{
         headless::gpu,
         surface::{Surface, Terrain},
     },
+    coverage,
+    ink::{hatch, sheet},
     ramps::{Ramps, STEP},
     stage::{Stage, bare, built, figure, ground, over, pixel_m, pose},
 };
@@ -197,6 +202,47 @@ fn images_lie_over_the_extents_of_their_fill_and_end_there() {
         }
     }
     println!("extents: {worst:.4} texels");
+    assert!(worst <= 0.03, "{worst}");
+}
+
+#[test]
+fn images_are_hatched_from_their_anchor_on() {
+    let Some(gpu) = gpu() else { return };
+    // Twice as wide as high: one is `spacing` wide, upright, its lower left corner on the anchor.
+    let ramps = Ramps::new(100, 50);
+    let mut worst = 0.0f64;
+    for (at, height_m) in [(PLACES[0], 2.0), (PLACES[3], 4e4), (PLACES[1], 2e6)] {
+        let surface = bare(&pose(at, height_m, 0.4), SMALL);
+        let mut stage = Stage::new(gpu, ground(at), &surface);
+        let image = stage.renderer.insert_image(&gpu.queue, &ramps.image());
+        let image = HatchKind::Image(image.expect("a small image"));
+        let spacing = (600.0 * pixel_m(&surface)) as f32;
+        let anchor = LonLat::new(at.lon_deg + 1.0, 0.99 * at.lat_deg);
+        let hatch = hatch(image, Length::Metres(spacing), 0.25, 0.4, anchor);
+        stage.set(0, coverage::style_of(hatch));
+        let drawn = stage.draw(&surface).texels;
+        let sheet = sheet(anchor, 0.4);
+        let size_m = f64::from(spacing) * DVec2::new(1.0, -0.5);
+        let mut judged = 0;
+        for (pixel, texel) in drawn.iter().enumerate() {
+            let Some(point_m) =
+                surface.points_m[pixel].filter(|_| !surface.at_discontinuity(pixel))
+            else {
+                continue;
+            };
+            // Far away the image is shown smaller than it is.
+            if point_m.distance(surface.lens.eye_m) > 1.6 * height_m {
+                continue;
+            }
+            judged += 1;
+            let wanted = ramps.level(sheet.at_m(point_m) / size_m, Wrap::Repeat);
+            for (level, wanted) in texel.iter().zip(wanted).take(2) {
+                worst = worst.max((f64::from(*level) - wanted).abs() / STEP);
+            }
+        }
+        assert!(judged > 500, "{judged}");
+    }
+    println!("hatched images: {worst:.4} texels");
     assert!(worst <= 0.03, "{worst}");
 }
 
