@@ -1,5 +1,6 @@
 //! Styles as drawn, against what their documentation says, computed in f64. The whole:
-//! `cargo test --release --test styles -- --ignored --nocapture`
+//! `cargo test --release --test styles -- everywhere --ignored --nocapture`
+//! (what else is ignored fails for a known reason, said beside it).
 
 #[path = "../common/mod.rs"]
 mod common;
