@@ -11,6 +11,7 @@ mod coordinates;
 mod coverage;
 mod edges;
 mod hosts;
+mod images;
 mod ink;
 mod ramps;
 mod refusals;
