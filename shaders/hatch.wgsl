@@ -80,28 +80,45 @@ fn checker_wave(cells: Cells) -> f32 {
     return mix(fine, coarse, cells.change);
 }
 
-// Dots: ellipses on the grid of both axes' lines, that grow with the lines that grow.
-fn dots(u: Cells, v: Cells, u_slope: vec2<f32>, v_slope: vec2<f32>, share: f32) -> f32 {
-    let cells = vec2<f32>(u.at, v.at);
-    let nearest = round(cells);
-    let at = cells - nearest;
-    let number = vec2<u32>(u.number, v.number) + vec2<u32>(vec2<i32>(nearest));
+// How much of a pixel the dot at a grid point covers, or 0 if it belongs to another: dots do not touch.
+fn dot_at(grid: vec2<f32>, u: Cells, v: Cells, u_slope: vec2<f32>, v_slope: vec2<f32>, radius: f32) -> f32 {
+    let at = vec2<f32>(u.at, v.at) - grid;
+    let number = vec2<u32>(u.number, v.number) + vec2<u32>(vec2<i32>(grid));
     let odd = (number & vec2<u32>(1u)) == vec2<u32>(1u);
     let change = vec2<f32>(u.change, v.change);
     let grown = select(1.0 + change, vec2<f32>(1.0), odd);
     let shrunk = select(vec2<f32>(1.0), sqrt(1.0 - change), odd);
-    let radii = max(sqrt(share / PI) * grown * shrunk.x * shrunk.y, vec2<f32>(1e-4));
+    let radii = max(radius * grown * shrunk.x * shrunk.y, vec2<f32>(1e-4));
     // Distances from the middle and to the edge beyond, pixels: of a function that is 1 at the edge, by its
     // slope.
     let scaled = at / radii;
     let level = max(length(scaled), 1e-3);
     let slope = scaled / (level * radii);
-    let radius = 1.0 / max(length(slope.x * u_slope + slope.y * v_slope), 1e-9);
+    let radius_px = 1.0 / max(length(slope.x * u_slope + slope.y * v_slope), 1e-9);
     // A ramp of 1 px about the edge of a disc covers 1/12 px^2 more than the disc; smaller discs than that
     // is good for are drawn paler.
-    let drawn = max(radius, 0.5);
+    let drawn = max(radius_px, 0.5);
     let trimmed = sqrt(drawn * drawn - 1.0 / 12.0);
-    let paler = radius / drawn;
-    let covered = saturate(trimmed - level * radius + 0.5) * paler * paler;
+    let paler = radius_px / drawn;
+    return saturate(trimmed - level * radius_px + 0.5) * paler * paler;
+}
+
+// The nearest number of a line that grows.
+fn growing(cells: Cells) -> f32 {
+    let odd = f32(cells.number & 1u);
+    return 2.0 * round(0.5 * (cells.at + odd)) - odd;
+}
+
+// Dots: ellipses on the grid of both axes' lines, that grow with the lines that grow. A grown one reaches
+// beyond half way to its neighbours.
+fn dots(u: Cells, v: Cells, u_slope: vec2<f32>, v_slope: vec2<f32>, share: f32) -> f32 {
+    let radius = sqrt(share / PI);
+    let near = vec2<f32>(round(u.at), round(v.at));
+    let even = vec2<f32>(growing(u), growing(v));
+    let here = dot_at(near, u, v, u_slope, v_slope, radius);
+    let beside = dot_at(vec2<f32>(even.x, near.y), u, v, u_slope, v_slope, radius);
+    let above = dot_at(vec2<f32>(near.x, even.y), u, v, u_slope, v_slope, radius);
+    let both = dot_at(even, u, v, u_slope, v_slope, radius);
+    let covered = max(max(here, beside), max(above, both));
     return mix(covered, share, blur(1.6 * max(u.width, v.width)));
 }

@@ -36,9 +36,11 @@ fn on_angles(placed: Placed, seen: Seen) -> Mapped {
     // Near a pole one pixel shows all longitudes.
     let radius = max(length(point.xy), 1e-3);
     let wider = dot(from_foot.xy, foot.xy + point.xy) / (radius_foot + radius);
+    // Of an eye right above a pole the longitude is 0.
+    let meridian = select(foot.xy, vec2<f32>(1.0, 0.0), radius_foot == 0.0);
     let turned = angle_of(
-        foot.x * from_foot.y - foot.y * from_foot.x,
-        dot(foot.xy, point.xy),
+        meridian.x * from_foot.y - meridian.y * from_foot.x,
+        dot(meridian, point.xy),
     );
     let higher = angle_of(
         radius_foot * from_foot.z - wider * foot.z,

@@ -16,8 +16,8 @@ pub struct ImageFill {
     pub wrap: Wrap,
     /// Turns the image about its middle, radians clockwise.
     pub rotation_rad: f32,
-    /// How often the image stands side by side in its place, across and down; less than 1 shows a
-    /// part from the middle. It takes [`Wrap::Repeat`] to see more than one.
+    /// How often the image stands side by side in its place, across and down, from 10⁻⁴ to 10⁴, with one
+    /// in the very middle; less than 1 shows a part from the middle. It takes [`Wrap::Repeat`] to see more than one.
     pub repeats: [f32; 2],
     /// What the image's alpha is multiplied with, 0 … 1.
     pub opacity: f32,
@@ -76,7 +76,7 @@ impl ImageFill {
                 center.is_valid() && size_m.iter().all(|side| (1e-3..=4e8).contains(side))
             }
         };
-        let repeats = |count: f32| (1e-6..=1e6).contains(&count);
+        let repeats = |count: f32| (1e-4..=1e4).contains(&count);
         let checks = [
             ("pattern.placement", placed),
             ("pattern.rotation_rad", self.rotation_rad.is_finite()),

@@ -95,7 +95,7 @@ pub struct Fade {
     /// a wide angle of view.
     pub pixel_m: Option<Ramp>,
     /// By the angle between the line of sight and the ellipsoid's tangent plane, radians: π/2 where
-    /// looking straight down, 0 at the limb.
+    /// looking straight down, 0 at the limb. Between the two in proportion to its sine.
     pub angle_rad: Option<Ramp>,
 }
 

@@ -176,7 +176,13 @@ impl AnglePlace {
         let foot = reference.foot_ecef_m;
         let lat_rad = (foot.z * self.stretch).atan2(foot.x.hypot(foot.y));
         let turn = std::f64::consts::TAU;
-        let turned_rad = foot.y.atan2(foot.x) - self.middle_lon_rad;
+        // At a pole zeros may be negative; map.wgsl takes the longitude for 0.
+        let foot_lon_rad = if foot.x == 0.0 && foot.y == 0.0 {
+            0.0
+        } else {
+            foot.y.atan2(foot.x)
+        };
+        let turned_rad = foot_lon_rad - self.middle_lon_rad;
         let lon_rad = turned_rad - turn * (turned_rad / turn).round();
         let [whole, fraction] = fixed(0.5, false);
         Placed {

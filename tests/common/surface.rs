@@ -17,6 +17,8 @@ pub enum Terrain {
     },
     /// Mountains between 4 and 9 km: waves of 300 m to 60 km length along three axes.
     Rough,
+    /// Facets of a quarter of a degree between corners up to 3 km high, as of a coarse mesh.
+    Coarse,
 }
 
 /// Directions and angular frequencies (per radian of arc), and heights, of the waves.
@@ -39,6 +41,7 @@ impl Terrain {
                 let waves = WAVES.iter().map(|(k, height)| height * k.dot(normal).sin());
                 ROUGH_MEAN_M + waves.sum::<f64>()
             }
+            Self::Coarse => coarse_m(normal),
         }
     }
 
@@ -49,6 +52,7 @@ impl Terrain {
                 let reach: f64 = WAVES.iter().map(|(_, height)| height).sum();
                 (ROUGH_MEAN_M - reach, ROUGH_MEAN_M + reach)
             }
+            Self::Coarse => (0.0, COARSE_MOST_M),
             level => (level.height_m(DVec3::Z), level.height_m(DVec3::Z)),
         }
     }
@@ -85,6 +89,32 @@ impl Terrain {
             before = after;
         }
         None
+    }
+}
+
+const COARSE_MOST_M: f64 = 3000.0;
+const COARSE_DEG: f64 = 0.25;
+
+/// Heights are linear within triangles of a grid in longitude and latitude.
+fn coarse_m(normal: DVec3) -> f64 {
+    let lon_deg = normal.y.atan2(normal.x).to_degrees();
+    let lat_deg = normal.z.atan2(normal.x.hypot(normal.y)).to_degrees();
+    let at = DVec2::new(lon_deg, lat_deg) / COARSE_DEG;
+    let first = at.floor();
+    let share = at - first;
+    let columns = 360.0 / COARSE_DEG;
+    let corner_m = |dx: f64, dy: f64| {
+        let (x, y) = ((first.x + dx).rem_euclid(columns), first.y + dy);
+        let wave = (12.9898 * x + 78.233 * y).sin() * 43_758.545_3;
+        COARSE_MOST_M * wave.rem_euclid(1.0)
+    };
+    let (low, high) = (corner_m(0.0, 0.0), corner_m(1.0, 1.0));
+    if share.x > share.y {
+        let side = corner_m(1.0, 0.0);
+        low + (side - low) * share.x + (high - side) * share.y
+    } else {
+        let side = corner_m(0.0, 1.0);
+        low + (side - low) * share.y + (high - side) * share.x
     }
 }
 
