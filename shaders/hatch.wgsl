@@ -59,9 +59,11 @@ fn lines(cells: Cells, share: f32) -> f32 {
     let change = select(cells.change, -cells.change, odd);
     let here = 0.5 * share * (1.0 + change);
     let beside = 0.5 * share * (1.0 - change);
-    // Wider pixels are blurred, and none so wide that it reaches the line beyond the nearer neighbour counts.
+    // Wider pixels are blurred.
     let width = clamp(cells.width, 1e-6, 1.0);
-    let covered = overlap(at, 0.5 * width, here) + overlap(at - 1.0, 0.5 * width, beside);
+    let reach = 0.5 * width;
+    let covered = overlap(at, reach, here) + overlap(at - 1.0, reach, beside)
+        + overlap(at + 1.0, reach, beside);
     return mix(covered / width, share, blur(cells.width));
 }
 

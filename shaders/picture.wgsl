@@ -62,7 +62,9 @@ fn sampled(filtering: sampler, at: vec2<f32>, layer: u32, mapped: Mapped) -> vec
     let longer = max(across.x, across.y);
     // The parallelogram of both sides has the area of longer times shorter.
     let area = abs(right.x * down.y - right.y * down.x) * size.x * size.y;
-    let taps = clamp(round(longer / max(area, 1e-12)), 1.0, MOST_TAPS);
+    // As many as one side is longer than the other, but no more than it has texels.
+    let most = clamp(sqrt(longer), 1.0, MOST_TAPS);
+    let taps = floor(clamp(longer / max(area, 1e-12) + 0.5, 1.0, most));
     let level = 0.5 * log2(max(longer, 1e-12)) - log2(taps);
     var sum = vec4<f32>(0.0);
     for (var tap = 0.5; tap < taps; tap += 1.0) {

@@ -38,6 +38,7 @@ impl<'a> Stage<'a> {
             depth: like.range.convention(),
             sample_count: like.samples(),
             count,
+            ..Default::default()
         };
         let mut renderer = Renderer::new(&gpu.device, options).expect("the options are sound");
         let mesh = renderer.insert(mesh);
