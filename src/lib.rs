@@ -49,6 +49,20 @@
 //! # }
 //! ```
 //!
+//! # Styles
+//!
+//! [`Renderer::set_style`] says how a fill looks: [`FillStyle`]. Plain colours, with opacity, highlight and
+//! additive blending, need nothing but the counted sums. A pattern ([`Hatch`], [`ImageFill`]), a [`Fade`] or
+//! a [`Stroke`] needs the surface point at each pixel, so the depth must have `TEXTURE_BINDING`; layers
+//! whose fills have none are resolved as before, which [`FrameStats::styled_layers`] shows. Strokes and
+//! [`RendererOptions::smooth_edges`] add a pass that measures how far pixels are from boundaries
+//! ([`FrameStats::edge_passes`]).
+//!
+//! Texture coordinates follow from the surface point. The alternative, coordinates at the vertices of the
+//! mesh and barycentric interpolation, would tie them to triangles that are up to hundreds of kilometres
+//! wide and lie kilometres below the surface they stand for, and each pixel would have to find its triangle;
+//! differences from the eye's foot point are as precise without either.
+//!
 //! # Sensors
 //!
 //! Footprints of sensors are not meshed. [`Renderer::sensors_mut`] is a [`SensorSet`]: put

@@ -28,8 +28,8 @@ pub struct RendererOptions {
     /// Format of the colour attachment of the pass given to [`resolve`](crate::Renderer::resolve).
     pub color_format: wgpu::TextureFormat,
     /// Format of the host's depth texture, of 24 bits or more. Its usage must include
-    /// `RENDER_ATTACHMENT`, and `TEXTURE_BINDING` for sensors and where the stencil counts: if asked for,
-    /// and on devices without `FLOAT32_BLENDABLE`. A format with stencil must have a single layer and level.
+    /// `RENDER_ATTACHMENT`, and `TEXTURE_BINDING` for sensors, for patterns, fades, strokes and smooth
+    /// edges, and where the stencil counts: if asked for, and on devices without `FLOAT32_BLENDABLE`. A format with stencil must have a single layer and level.
     pub depth_format: wgpu::TextureFormat,
     /// Which way the depth buffer runs.
     pub depth: DepthConvention,

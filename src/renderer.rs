@@ -193,7 +193,7 @@ impl Renderer {
     /// Records the counting passes: after the host's depth is final, outside any pass.
     ///
     /// `depth` is a view of the depth texture the frame was prepared for. It is attached read-only;
-    /// the stencil technique and sensors bind it as a texture instead, which needs `TEXTURE_BINDING`.
+    /// the stencil technique, sensors and patterns bind it as a texture too, which needs `TEXTURE_BINDING`.
     /// Sensors read it once more in [`resolve`](Self::resolve).
     pub fn count(
         &self,
