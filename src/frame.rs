@@ -2,6 +2,7 @@
 
 pub(crate) mod code;
 pub(crate) mod edge_draws;
+pub(crate) mod edge_segments;
 pub(crate) mod edge_uniform;
 pub(crate) mod layers;
 pub(crate) mod placed;

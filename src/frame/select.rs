@@ -5,7 +5,8 @@ use std::ops::Range;
 use crate::{
     fill_mesh::FillMesh,
     frame::code::PlaneSums,
-    frame::edge_draws::{ArcEdges, EdgeDraws, EdgeSegments, EdgeWants},
+    frame::edge_draws::{ArcEdges, EdgeDraws, EdgeWants},
+    frame::edge_segments::EdgeSegments,
     frame::layers::PieceCode,
     frame::refine::Patch,
     frame::sight::Sight,

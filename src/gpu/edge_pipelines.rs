@@ -3,7 +3,8 @@
 use std::collections::HashMap;
 
 use crate::{
-    frame::edge_draws::{EdgeInput, EdgeSegment},
+    frame::edge_draws::EdgeInput,
+    frame::edge_segments::EdgeSegment,
     gpu::pipelines::{Pipelines, layout},
     options::RendererOptions,
     shaders,
