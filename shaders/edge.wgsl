@@ -3,7 +3,7 @@
 // Around the wall of every boundary chord a prism is drawn that holds all surface within the chord's
 // reach. Its back faces alone are drawn, untested against the host's depth, so the eye may be inside;
 // each fragment measures from the surface point it sees to the chord, and the nearest chord wins by
-// depth, which holds the distance as a share of the reach.
+// depth, which holds the distance in pixels.
 //
 // Ends of chords and surface are both taken from the eye's foot point: the former exactly, from fixed
 // point, the latter as place_of gives it. Their difference is then off by a few roundings of the distance
@@ -40,6 +40,8 @@ const ABOVE: u32 = 0x31e3u;
 const SHORTEST_M: f32 = 2e-5;
 // By how much a chord that a pixel lies beyond is put behind one that ends at the same vertex.
 const BEYOND: f32 = 1e-3;
+// Depth 1, pixels: farther than any edge reaches.
+const MOST_PX: f32 = 131072.0;
 // The most by which pixels towards the horizon are taken to reach farther.
 const FARTHEST: f32 = 4.0;
 
@@ -329,6 +331,6 @@ fn fs_edge(in: EdgeVertex) -> EdgeTexel {
         in.sides.x,
         along,
     );
-    out.depth = min((near.off + BEYOND * near.beyond) / ((1.0 + BEYOND) * limit), 1.0);
+    out.depth = min((near.off + BEYOND * near.beyond) / (near.across * MOST_PX), 1.0);
     return out;
 }

@@ -83,7 +83,9 @@ fn vs_flat(@builtin(vertex_index) corner: u32, @builtin(instance_index) slot: u3
 
 @fragment
 fn fs_flat(in: FlatVertex) -> EdgeTexel {
-    if is_sky(depth_at(vec2<u32>(in.position.xy), 0u)) {
+    let depth = depth_at(vec2<u32>(in.position.xy), 0u);
+    let ray = ray_at(in.position.xy);
+    if is_sky(depth) || strays(place_of(ray * distance_of(depth), 0.0), 0.0) {
         discard;
     }
     let from_start = in.position.xy - in.ends.xy;
@@ -104,6 +106,6 @@ fn fs_flat(in: FlatVertex) -> EdgeTexel {
         in.sides.x,
         along,
     );
-    out.depth = min((off + BEYOND * beyond) / ((1.0 + BEYOND) * in.limit), 1.0);
+    out.depth = min((off + BEYOND * beyond) / MOST_PX, 1.0);
     return out;
 }

@@ -6,7 +6,9 @@
 
 // How much of a pixel lies within 0 ... 1 of a coordinate that changes by `width` across it.
 fn inside(at: f32, width: f32) -> f32 {
-    return saturate(min(at, 1.0 - at) / max(width, 1e-9) + 0.5);
+    let narrow = saturate(min(at, 1.0 - at) / max(width, 1e-9) + 0.5);
+    let wide = max(min(at + 0.5 * width, 1.0) - max(at - 0.5 * width, 0.0), 0.0) / max(width, 1.0);
+    return select(narrow, wide, width > 1.0);
 }
 
 // An image in its place; v runs down.

@@ -13,7 +13,8 @@ struct Edge {
     along: u32,
 }
 
-const NO_EDGE: u32 = 0xffffffffu;
+// Ids of a pixel that is near no boundary; those of both sides of one differ.
+const NO_EDGE: u32 = 0u;
 // How a stroke lies to its fill.
 const ALIGN_INNER: u32 = 0u;
 const ALIGN_CENTER: u32 = 1u;

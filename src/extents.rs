@@ -20,6 +20,9 @@ pub struct Extents {
     pub north_deg: f64,
 }
 
+/// Least width and height: 0.1 mm on the Earth.
+const LEAST_DEG: f64 = 1e-9;
+
 impl Extents {
     /// All longitudes and latitudes.
     pub const GLOBE: Self = Self {
@@ -30,13 +33,13 @@ impl Extents {
     };
 
     /// Whether all numbers are finite, latitudes within ±90° and in order, longitudes within a turn of
-    /// ±180° and not the same.
+    /// ±180°, and neither side below 10⁻⁹°.
     pub fn is_valid(self) -> bool {
         let longitudes = [self.west_deg, self.east_deg];
         longitudes.iter().all(|lon_deg| lon_deg.abs() <= 540.0)
-            && self.west_deg != self.east_deg
+            && self.width_deg() >= LEAST_DEG
             && self.south_deg >= -90.0
-            && self.south_deg < self.north_deg
+            && self.north_deg - self.south_deg >= LEAST_DEG
             && self.north_deg <= 90.0
     }
 

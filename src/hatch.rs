@@ -27,8 +27,9 @@ pub struct Hatch {
     ///
     /// In metres it is that at the anchor. In pixels, it is met within a factor √2 anywhere on the
     /// screen at any distance: the pattern repeats every 2ᵏ m, at each pixel in each of its two
-    /// directions for the k that fits best, and while k changes every other line grows and the ones
-    /// between vanish.
+    /// directions (of an image: once for both) for the k that fits best, and while k changes every other
+    /// line grows and the ones between vanish. Over terrain, slopes are taken to be seen at 12° or more:
+    /// level ground that is seen more obliquely shows the pattern closer.
     pub spacing: Length,
     /// Which share of the surface lines or dots cover, 0 … 1; it is kept at every scale.
     /// Of crossed lines: each family. Of dots: at most 0.6. Checkers and images do not ask it.

@@ -11,6 +11,7 @@ use std::{fmt, sync::Arc};
 
 use glam::UVec2;
 
+use self::srgb::Srgb;
 use crate::error::ImageError;
 
 /// Names an image in a [`Renderer`](crate::Renderer).
@@ -48,6 +49,22 @@ pub(crate) struct Level {
     pub(crate) size: UVec2,
     /// Red, green, blue and alpha, row by row from the top; colours as [`Image`] tells.
     pub(crate) texels: Vec<[u8; 4]>,
+}
+
+impl Level {
+    /// The texels for targets that hold encoded colours: the encoded colours, times alpha.
+    pub(crate) fn encoded(&self) -> Vec<[u8; 4]> {
+        let tables = Srgb::tables();
+        let texel = |&[red, green, blue, alpha]: &[u8; 4]| {
+            let share = f32::from(alpha) / 255.0;
+            let part = |code: u8| {
+                let straight = tables.encode(tables.decode(code) / share.max(1.0 / 255.0));
+                (f32::from(straight) * share).round() as u8
+            };
+            [part(red), part(green), part(blue), alpha]
+        };
+        self.texels.iter().map(texel).collect()
+    }
 }
 
 impl Image {

@@ -32,7 +32,7 @@ use crate::{
 
 /// Names a mesh in a [`Renderer`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct MeshId(u32);
+pub struct MeshId(pub(crate) u32);
 
 /// Draws fills into the frames of one host configuration.
 ///
@@ -194,7 +194,7 @@ impl Renderer {
     ///
     /// `depth` is a view of the depth texture the frame was prepared for. It is attached read-only;
     /// the stencil technique, sensors and patterns bind it as a texture too, which needs `TEXTURE_BINDING`.
-    /// Sensors read it once more in [`resolve`](Self::resolve).
+    /// Sensors and patterns read it once more in [`resolve`](Self::resolve).
     pub fn count(
         &self,
         view: &mut View,
@@ -242,9 +242,9 @@ impl Renderer {
 
     /// The meshes as a view draws them.
     fn drawn<'a>(&'a self, views: &'a HashMap<MeshId, MeshView>) -> Vec<Drawn<'a>> {
-        let drawn = self.meshes.iter().filter_map(|(id, resident)| {
+        let drawn = self.meshes.iter().filter_map(|(&id, resident)| {
             let gpu = &resident.gpu;
-            views.get(id).map(|view| Drawn { gpu, view })
+            views.get(&id).map(|view| Drawn { id, gpu, view })
         });
         drawn.collect()
     }

@@ -11,7 +11,7 @@ use crate::{
 pub struct Stroke {
     /// Red, green, blue, alpha, as in [`FillStyle::color`](crate::FillStyle::color); over the fill.
     pub color: [f32; 4],
-    /// How wide the line is.
+    /// How wide the line is: up to 200 km or 256 px.
     pub width: Length,
     /// On which side of the boundary it lies.
     pub align: Align,
@@ -52,10 +52,22 @@ impl Default for Stroke {
     }
 }
 
+/// Widest strokes: distances are measured from the plane of a chord, which the ellipsoid leaves, and
+/// every boundary is drawn as wide.
+const MOST_M: f32 = 2e5;
+const MOST_PX: f32 = 256.0;
+
 impl Stroke {
     pub(crate) fn check(&self) -> Result<(), StyleError> {
         check_color("stroke.color", self.color)?;
         check_length("stroke.width", self.width)?;
+        let wide = match self.width {
+            Length::Metres(metres) => metres > MOST_M,
+            Length::Pixels(pixels) => pixels > MOST_PX,
+        };
+        if wide {
+            return Err(StyleError::OutOfRange("stroke.width"));
+        }
         if let Some(dash) = self.dash {
             check_length("stroke.dash.period", dash.period)?;
             if !(0.0..=1.0).contains(&dash.share) {

@@ -11,6 +11,8 @@ use crate::{
 
 /// How a fill looks: from below a colour, a pattern on it, a highlight, and a stroke along its boundary.
 ///
+/// Patterns, strokes and fades, and smooth edges, need all meshes of a renderer on one ellipsoid.
+///
 /// What a style does not use costs nothing: a frame of colours alone is drawn by a pipeline that
 /// knows no patterns, strokes or fades, and needs no surface positions.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -108,13 +110,28 @@ pub struct Ramp {
     pub gone: f32,
 }
 
+/// Sines of the angles of a fade differ by no less.
+const LEAST_SINES: f32 = 1e-6;
+
+impl Ramp {
+    /// Whether the way from one end to the other can be told in single precision.
+    fn is_sound(self) -> bool {
+        let span = (self.full - self.gone).abs();
+        let largest = self.full.abs().max(self.gone.abs());
+        span.is_finite() && span >= 1e-6 * largest && span >= 1e-9
+    }
+}
+
 impl FillStyle {
     /// Whether anything of the fill is drawn.
     pub(crate) fn shows(&self) -> bool {
         let painted = self.color[3] > 0.0 || self.highlight[3] > 0.0;
-        self.visible
-            && self.opacity > 0.0
-            && (painted || self.pattern.is_some() || self.stroke.is_some())
+        let patterned = self.pattern.is_some_and(|pattern| match pattern {
+            Pattern::Hatch(hatch) => hatch.color[3] > 0.0,
+            Pattern::Image(image) => image.opacity > 0.0,
+        });
+        let stroked = self.stroke.is_some_and(|stroke| stroke.color[3] > 0.0);
+        self.visible && self.opacity > 0.0 && (painted || patterned || stroked)
     }
 
     /// Colour, highlight, opacity and blend of a solid fill in one: premultiplied, with the alpha that
@@ -143,11 +160,17 @@ impl FillStyle {
             ("fade.angle_rad", self.fade.angle_rad),
         ];
         for (name, ramp) in ramps {
-            if let Some(Ramp { full, gone }) = ramp
-                && !(full.is_finite() && gone.is_finite() && full != gone)
-            {
+            if ramp.is_some_and(|ramp| !ramp.is_sound()) {
                 return Err(StyleError::OutOfRange(name));
             }
+        }
+        let quarter = 0.0..=std::f32::consts::FRAC_PI_2;
+        if let Some(Ramp { full, gone }) = self.fade.angle_rad
+            && !(quarter.contains(&full)
+                && quarter.contains(&gone)
+                && (full.sin() - gone.sin()).abs() >= LEAST_SINES)
+        {
+            return Err(StyleError::OutOfRange("fade.angle_rad"));
         }
         match &self.pattern {
             Some(Pattern::Hatch(hatch)) => hatch.check()?,

@@ -9,12 +9,14 @@ use crate::{
     gpu::planes::Planes,
     gpu::targets::{LayerTarget, Targets},
     options::CountTechnique,
+    renderer::MeshId,
     view::{LayerView, MeshView, Prepared},
 };
 
 /// A mesh as one view draws it.
 #[derive(Clone, Copy)]
 pub(crate) struct Drawn<'a> {
+    pub id: MeshId,
     pub gpu: &'a GpuMesh,
     pub view: &'a MeshView,
 }

@@ -33,6 +33,7 @@ use crate::{
         surface_binding::{SurfaceBinding, surface_layout},
     },
     options::{CountTechnique, Frame, HeightRange, RendererOptions},
+    renderer::MeshId,
     view::{MeshView, Upload},
 };
 
@@ -64,7 +65,7 @@ fn half(bits: u32) -> f64 {
 }
 
 fn decoded([x, y, z, w]: [u32; 4]) -> Option<Texel> {
-    (z != u32::MAX).then(|| Texel {
+    (z != 0).then(|| Texel {
         signed_m: f32::from_bits(x).into(),
         across_m: half(y & 0xffff).exp2(),
         along_m: half(y >> 16).exp2(),
@@ -146,6 +147,7 @@ fn draw(
     let mut edge_pipelines = EdgePipelines::new(device, &pipelines, &layout, options);
     let mut edges = EdgeView::default();
     let subject = EdgeSubject {
+        id: MeshId(0),
         gpu: &uploaded,
         sight: &sight,
         selection: &selection,
@@ -168,6 +170,7 @@ fn draw(
     view.upload(&to, &sight, selection);
     let mut encoder = device.create_command_encoder(&Default::default());
     let drawn = [Drawn {
+        id: MeshId(0),
         gpu: &uploaded,
         view: &view,
     }];

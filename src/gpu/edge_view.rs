@@ -1,5 +1,7 @@
 //! What a view keeps of the edge pass, and recording it.
 
+use std::collections::BTreeMap;
+
 use glam::UVec2;
 
 use crate::{
@@ -14,10 +16,8 @@ use crate::{
     gpu::gpu_mesh::GpuMesh,
     gpu::stream_buffer::StreamBuffer,
     options::DepthConvention,
+    renderer::MeshId,
 };
-
-/// In the texel of a pixel without an edge, where ids would be; as in stroke.wgsl.
-const NO_EDGE: u32 = u32::MAX;
 
 /// Targets, buffers and bindings of one view.
 #[derive(Default)]
@@ -26,8 +26,7 @@ pub(crate) struct EdgeView {
     nearest: Option<wgpu::TextureView>,
     /// By layer; none where no edges are wanted.
     layers: Vec<Option<EdgeLayer>>,
-    /// In the order of the meshes drawn.
-    meshes: Vec<EdgeMesh>,
+    meshes: BTreeMap<MeshId, EdgeMesh>,
     mirrored: bool,
 }
 
@@ -54,6 +53,7 @@ struct EdgeMeshLayer {
 /// A mesh as a frame shows it.
 #[derive(Clone, Copy)]
 pub(crate) struct EdgeSubject<'a> {
+    pub id: MeshId,
     pub gpu: &'a GpuMesh,
     pub sight: &'a Sight,
     pub selection: &'a Selection,
@@ -102,10 +102,11 @@ impl EdgeView {
                 *moved = replaced;
             }
         }
-        self.meshes.truncate(subjects.len());
         self.meshes
-            .resize_with(subjects.len(), || EdgeMesh::new(device));
-        for (mesh, subject) in self.meshes.iter_mut().zip(subjects) {
+            .retain(|id, _| subjects.iter().any(|subject| subject.id == *id));
+        for subject in subjects {
+            let mesh = self.meshes.entry(subject.id);
+            let mesh = mesh.or_insert_with(|| EdgeMesh::new(device));
             let with = Upload {
                 device,
                 queue,
@@ -159,7 +160,7 @@ impl EdgeView {
     }
 
     /// Records the passes: outside any pass, once the host's depth is final. `meshes` are those of
-    /// [`prepare`](Self::prepare), in its order; `surface` is the depth with its camera.
+    /// [`prepare`](Self::prepare), or some of them; `surface` is the depth with its camera.
     pub(crate) fn record(
         &self,
         pipelines: &EdgePipelines,
@@ -176,7 +177,10 @@ impl EdgeView {
             };
             let mut pass = begin(encoder, &layer.target, nearest);
             pass.set_bind_group(2, surface, &[]);
-            for (mesh, drawn) in self.meshes.iter().zip(meshes) {
+            for drawn in meshes {
+                let Some(mesh) = self.meshes.get(&drawn.id) else {
+                    continue;
+                };
                 let edges = &drawn.view.selection.layers[index].edges;
                 let Some(group) = mesh.group(index) else {
                     continue;
@@ -355,10 +359,6 @@ fn begin<'a>(
     target: &wgpu::TextureView,
     nearest: &wgpu::TextureView,
 ) -> wgpu::RenderPass<'a> {
-    let no_edge = wgpu::Color {
-        b: f64::from(NO_EDGE),
-        ..wgpu::Color::TRANSPARENT
-    };
     encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
         label: Some("globefill edges"),
         color_attachments: &[Some(wgpu::RenderPassColorAttachment {
@@ -366,7 +366,8 @@ fn begin<'a>(
             depth_slice: None,
             resolve_target: None,
             ops: wgpu::Operations {
-                load: wgpu::LoadOp::Clear(no_edge),
+                // No ids: no edge.
+                load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
                 store: wgpu::StoreOp::Store,
             },
         })],

@@ -167,7 +167,14 @@ impl ImageArrays {
                 bytes_per_row: Some(4 * texels.size.x),
                 rows_per_image: None,
             };
-            queue.write_texture(into, bytemuck::cast_slice(&texels.texels), rows, size);
+            let encoded;
+            let bytes: &[u8] = if texture.format().is_srgb() {
+                bytemuck::cast_slice(&texels.texels)
+            } else {
+                encoded = texels.encoded();
+                bytemuck::cast_slice(&encoded)
+            };
+            queue.write_texture(into, bytes, rows, size);
         }
         let id = ImageId(self.next_id);
         self.next_id += 1;

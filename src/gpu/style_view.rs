@@ -12,6 +12,7 @@ use crate::{
     gpu::style_pipelines::StylePipelines,
     gpu::style_table::Needs,
     gpu::surface_binding::SurfaceBinding,
+    options::CountTechnique,
 };
 
 /// Buffers and bindings of one view.
@@ -25,7 +26,7 @@ pub(crate) struct StyleView {
     /// By layer; none where plain colours say all.
     layers: Vec<Option<StyledLayer>>,
     /// Which layer tables are bound.
-    revision: u64,
+    revision: (u64, CountTechnique),
 }
 
 struct StyledLayer {
@@ -34,11 +35,14 @@ struct StyledLayer {
     group: wgpu::BindGroup,
 }
 
+/// Flag of the draw that shows the last array; as in resolve_styled.wgsl.
+const LAST_ARRAY: u32 = 1 << 16;
+
 /// What a frame brings.
 pub(crate) struct StyleFrame<'a> {
     pub tables: &'a LayerTables,
     /// Which tables these are.
-    pub revision: u64,
+    pub revision: (u64, CountTechnique),
     pub reference: Reference,
     pub uniform: SightUniform,
     pub edges: EdgeFrame<'a>,
@@ -55,7 +59,7 @@ impl StyleView {
             edges: None,
             edge_cost: EdgeCost::default(),
             layers: Vec::new(),
-            revision: 0,
+            revision: (0, CountTechnique::default()),
         }
     }
 
@@ -173,9 +177,11 @@ impl StyleView {
         pass.set_pipeline(pipeline);
         pass.set_bind_group(1, &styled.group, &[]);
         pass.set_bind_group(2, surface, &[]);
-        for &array in &styled.arrays {
+        for (index, &array) in styled.arrays.iter().enumerate() {
+            let last = index + 1 == styled.arrays.len();
+            let instance = array | if last { LAST_ARRAY } else { 0 };
             pass.set_bind_group(3, images.group(array), &[]);
-            pass.draw(0..4, array..array + 1);
+            pass.draw(0..4, instance..instance + 1);
         }
     }
 }

@@ -216,3 +216,24 @@ fn debug_is_short_and_clones_share() {
     assert_eq!(format!("{image:?}"), "Image { width: 100, height: 50, .. }");
     assert!(Arc::ptr_eq(&image.levels, &image.clone().levels));
 }
+
+#[test]
+fn texels_for_encoded_targets_are_encoded_colours_times_alpha() {
+    let straight = [
+        [255, 255, 255, 128],
+        [200, 100, 0, 255],
+        [90, 40, 250, 64],
+        [9, 9, 9, 0],
+    ];
+    let image = Image::from_rgba8(4, 1, straight.as_flattened()).expect("sound");
+    let encoded = image.levels()[0].encoded();
+    for (encoded, straight) in encoded.iter().zip(straight) {
+        let share = f64::from(straight[3]) / 255.0;
+        for part in 0..3 {
+            let wanted = f64::from(straight[part]) * share;
+            let off = (f64::from(encoded[part]) - wanted).abs();
+            assert!(off <= 1.5, "{encoded:?} {straight:?}");
+        }
+        assert_eq!(encoded[3], straight[3]);
+    }
+}

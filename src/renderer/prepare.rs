@@ -54,9 +54,10 @@ impl Renderer {
         if prepared.unclipped {
             require(self.device.features(), FAR_PLANE_FEATURES)?;
         }
+        self.check_styles(&selections, choice)?;
         self.ensure_targets(view, frame, choice)?;
         self.ensure_pipelines(&prepared, &selections, choice)?;
-        let place_bytes = self.prepare_styles(queue, view, &prepared, &selections, choice)?;
+        let place_bytes = self.prepare_styles(queue, view, &prepared, &selections, choice);
         let mesh_bytes = self.upload(queue, view, selections);
         prepared.stats.upload_bytes = table_bytes + place_bytes + mesh_bytes;
         self.fill_stats(view, &mut prepared);

@@ -150,6 +150,22 @@ impl Renderer {
         removed.then_some(()).ok_or(RendererError::NoSuchImage)
     }
 
+    /// Whether what is styled can be drawn.
+    pub(super) fn check_styles(
+        &self,
+        selections: &[Selected],
+        choice: Choice,
+    ) -> Result<(), RendererError> {
+        let styled = self.layers(choice)?.styles.iter().any(Option::is_some);
+        let ellipsoids = || selections.iter().map(|selected| selected.sight.ellipsoid);
+        if styled && ellipsoids().zip(ellipsoids().skip(1)).any(|(a, b)| a != b) {
+            return Err(RendererError::Unsupported(
+                "patterns, strokes, fades and smooth edges need all meshes on one ellipsoid",
+            ));
+        }
+        Ok(())
+    }
+
     /// Places patterns for the frame's eye, compiles and uploads what is missing; returns the bytes.
     pub(super) fn prepare_styles(
         &mut self,
@@ -158,7 +174,7 @@ impl Renderer {
         prepared: &Prepared,
         selections: &[Selected],
         choice: Choice,
-    ) -> Result<u64, RendererError> {
+    ) -> u64 {
         let tables = match choice {
             Choice::Wanted => &self.layers,
             Choice::Fallback => &self.fallback,
@@ -169,14 +185,8 @@ impl Renderer {
             (tables.filter(styled), selections.first())
         else {
             view.styles = None;
-            return Ok(0);
+            return 0;
         };
-        let elsewhere = |other: &Selected| other.sight.ellipsoid != sight.ellipsoid;
-        if selections.iter().any(elsewhere) {
-            return Err(RendererError::Unsupported(
-                "patterns, strokes and fades need all meshes on one ellipsoid",
-            ));
-        }
         let device = &self.device;
         let images = self.images.get_or_insert_with(|| ImageArrays::new(device));
         let pipelines = self.style_pipelines.get_or_insert_with(|| {
@@ -199,6 +209,7 @@ impl Renderer {
         let subjects: Vec<EdgeSubject<'_>> = selections
             .iter()
             .map(|selected| EdgeSubject {
+                id: selected.id,
                 gpu: &self.meshes[&selected.id].gpu,
                 sight: &selected.sight,
                 selection: &selected.selection,
@@ -206,7 +217,7 @@ impl Renderer {
             .collect();
         let with = StyleFrame {
             tables,
-            revision: self.revision,
+            revision: (self.revision, prepared.technique),
             uniform,
             reference,
             edges: EdgeFrame {
@@ -217,7 +228,7 @@ impl Renderer {
             subjects: &subjects,
         };
         let styles = view.styles.get_or_insert_with(|| StyleView::new(device));
-        Ok(styles.prepare(device, queue, pipelines, &with))
+        styles.prepare(device, queue, pipelines, &with)
     }
 
     /// Binds the depth that patterns are placed by, and measures how far pixels are from boundaries.
