@@ -1,5 +1,5 @@
 //! What an angle costs a shader and how far it is off: built-in, polynomials, and the map form of
-//! shaders/map.wgsl, which needs none. The loop alone is what all of them contain.
+//! shaders/map.wgsl, which needs none. The sum alone is what all of them contain.
 //!
 //! `cargo bench --bench arctangent`
 
@@ -10,15 +10,14 @@ use globefill::{shaders, wgpu};
 use wgpu::util::DeviceExt;
 
 const EVALUATIONS: usize = 1 << 20;
-const REPEATS: u32 = 16;
+const REPEATS: usize = 16;
 const EARTH_RADIUS_M: f64 = 6_378_137.0;
 /// From the anchor of the map to the eye's foot point.
 const ANCHOR_RAD: f64 = 0.3;
 
-/// Around one of the functions `measured`. The first two of `given` are the map's gradient and fall, the
+/// Around one of the functions `measured`, called in SUM: unrolled, as a loop may cost more than they do. The first two of `given` are the map's gradient and fall, the
 /// others (sine, cosine, cosine - 1, 0) of an angle.
-const LOOP: &str = "
-override REPEATS: u32;
+const AROUND: &str = "
 @group(0) @binding(0) var<storage, read> given: array<vec4<f32>>;
 @group(0) @binding(1) var<storage, read_write> sums: array<f32>;
 
@@ -28,9 +27,7 @@ fn repeat(@builtin(global_invocation_id) id: vec3<u32>) {
     let fall = given[1];
     let at = given[id.x + 2u];
     var sum = 0.0;
-    for (var i = 0u; i < REPEATS; i++) {
-        sum += measured(at + f32(i) * 1e-4, u, fall);
-    }
+    SUM
     sums[id.x] = sum;
 }
 
@@ -149,8 +146,10 @@ impl Bench {
         })
     }
 
-    fn pipeline(&self, measured: &str, repeats: u32) -> wgpu::ComputePipeline {
-        let source = [LOOP, measured].concat();
+    fn pipeline(&self, measured: &str, repeats: usize) -> wgpu::ComputePipeline {
+        let call = |k| format!("sum += measured(at + {:e}, u, fall);\n", k as f64 * 1e-4);
+        let sum: String = (0..repeats).map(call).collect();
+        let source = AROUND.replace("SUM", &sum) + measured;
         let module = wgpu::ShaderModuleDescriptor {
             label: None,
             source: wgpu::ShaderSource::Wgsl(source.into()),
@@ -161,10 +160,7 @@ impl Bench {
                 layout: None,
                 module: &self.device.create_shader_module(module),
                 entry_point: None,
-                compilation_options: wgpu::PipelineCompilationOptions {
-                    constants: &[("REPEATS", f64::from(repeats))],
-                    ..Default::default()
-                },
+                compilation_options: Default::default(),
                 cache: None,
             })
     }
@@ -223,7 +219,7 @@ fn angles(criterion: &mut Criterion) {
     };
     let eight = ANGLE_OF.to_owned() + &shaders::arctangent();
     let forms: [(&str, String, Option<Error>); 6] = [
-        ("loop alone", ALONE.to_owned(), None),
+        ("sum alone", ALONE.to_owned(), None),
         ("built-in atan2", BUILT_IN.to_owned(), Some(angle_error)),
         ("6 terms", with_terms(&SIX), Some(angle_error)),
         ("7 terms", with_terms(&SEVEN), Some(angle_error)),
@@ -231,10 +227,12 @@ fn angles(criterion: &mut Criterion) {
         ("on_map", ON_MAP.to_owned(), Some(map_error)),
     ];
     let mut group = criterion.benchmark_group("angle");
-    let count = EVALUATIONS as u64 * u64::from(REPEATS);
+    let count = (EVALUATIONS * REPEATS) as u64;
     group
         .throughput(Throughput::Elements(count))
-        .sample_size(20);
+        .sample_size(20)
+        .warm_up_time(Duration::from_millis(500))
+        .measurement_time(Duration::from_secs(2));
     for (name, measured, error) in &forms {
         let pipeline = bench.pipeline(measured, REPEATS);
         let mut fastest = Duration::MAX;

@@ -9,7 +9,8 @@ use wgpu::util::DeviceExt;
 /// A dispatch has at most 65535 workgroups.
 const WORKGROUP: usize = 64;
 const RANDOM_PAIRS: usize = 1 << 20;
-/// What angle_of may be off by, as a share of the angle. Its comment says how it comes about.
+/// What angle_of may be off by, as a share of the angle: what its comment says, and some of what a
+/// division may err by.
 const RELATIVE: f64 = 5e-7;
 /// Angles this small may be flushed to zero.
 const SMALLEST_RAD: f64 = f32::MIN_POSITIVE as f64;
