@@ -79,6 +79,11 @@ pub fn resolve_styled(sample_count: u32) -> String {
     parts.concat()
 }
 
+/// The arctangent alone, for tests and benchmarks.
+pub fn arctangent() -> String {
+    ARCTANGENT.to_owned()
+}
+
 /// Which fill of a layer covers one pixel.
 pub fn pick(sample_count: u32) -> String {
     [planes(sample_count), LAYER, PICK].concat()
