@@ -37,6 +37,7 @@ impl Extents {
     pub fn is_valid(self) -> bool {
         let longitudes = [self.west_deg, self.east_deg];
         longitudes.iter().all(|lon_deg| lon_deg.abs() <= 540.0)
+            && self.west_deg != self.east_deg
             && self.width_deg() >= LEAST_DEG
             && self.south_deg >= -90.0
             && self.north_deg - self.south_deg >= LEAST_DEG

@@ -18,6 +18,7 @@ mod refusals;
 mod seams;
 mod spacing;
 mod stage;
+mod strokes;
 mod unused;
 
 use glam::UVec2;

@@ -57,8 +57,20 @@ impl<'a> Stage<'a> {
     }
 
     pub fn draw(&mut self, surface: &Surface) -> Painted {
+        self.draw_within(surface, 0.25)
+    }
+
+    /// With boundaries within `pixel_error` of the true ones.
+    pub fn draw_within(&mut self, surface: &Surface, pixel_error: f64) -> Painted {
         let (renderer, view) = (&mut self.renderer, &mut self.view);
-        paint(self.gpu, renderer, &self.options, view, surface, 0.25)
+        paint(
+            self.gpu,
+            renderer,
+            &self.options,
+            view,
+            surface,
+            pixel_error,
+        )
     }
 }
 
