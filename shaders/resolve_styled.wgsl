@@ -1,11 +1,24 @@
 // Resolving fills with patterns, fades or strokes: the fill that the counted sums name, and the surface
 // point that the depth tells, make the colour.
 
+@group(2) @binding(1) var<uniform> sight_bound: Sight;
+
+// What shaders know of the eye. It travels with the vertices, though it is the same for all: software reads
+// a uniform anew for every lane of a vector, which took as long as the rest of a hatch.
+var<private> sight: Sight;
+
 struct Screen {
     @builtin(position) position: vec4<f32>,
-    // The array of images that this draw shows, and whether it is the last of the layer.
-    @location(0) @interpolate(flat) array: u32,
-    @location(1) @interpolate(flat) last: u32,
+    @location(0) @interpolate(flat) ray: vec4<f32>,
+    @location(1) @interpolate(flat) right: vec4<f32>,
+    @location(2) @interpolate(flat) down: vec4<f32>,
+    @location(3) @interpolate(flat) depth: vec4<f32>,
+    @location(4) @interpolate(flat) ellipsoid: vec4<f32>,
+    @location(5) @interpolate(flat) eye_gradient: vec4<f32>,
+    @location(6) @interpolate(flat) foot_gradient: vec4<f32>,
+    @location(7) @interpolate(flat) bounds: vec4<f32>,
+    // Width and height; the array of images that this draw shows, and whether it is the last of the layer.
+    @location(8) @interpolate(flat) draw: vec4<u32>,
 }
 
 const LAST_ARRAY: u32 = 65536u;
@@ -14,83 +27,136 @@ const LAST_ARRAY: u32 = 65536u;
 @vertex
 fn vs_styled(@builtin(vertex_index) corner: u32, @builtin(instance_index) draw: u32) -> Screen {
     let greatest = vec2<bool>((corner & 1u) == 1u, corner >= 2u);
-    let at = select(sight.window.xy, sight.window.zw, greatest);
-    return Screen(vec4<f32>(at, 0.0, 1.0), draw % LAST_ARRAY, draw / LAST_ARRAY);
+    let known = sight_bound;
+    return Screen(
+        vec4<f32>(select(known.window.xy, known.window.zw, greatest), 0.0, 1.0),
+        known.ray,
+        known.right,
+        known.down,
+        known.depth,
+        known.ellipsoid,
+        known.eye_gradient,
+        known.foot_gradient,
+        known.bounds,
+        vec4<u32>(known.size.xy, draw % LAST_ARRAY, draw / LAST_ARRAY),
+    );
 }
 
-// Ink of a pattern that lies at a place on its map or its longitudes and latitudes.
-fn ink_of(style: u32, seen: Seen) -> vec4<f32> {
-    let kind = styles[style].pattern.x;
-    let place = styles[style].pattern.y;
-    let phase = places[place].phase;
-    var mapped = on_map(places[place], seen);
-    if needs(NEEDS_ANGLES) && places[place].fall.w != 0.0 {
-        mapped = on_angles(places[place], seen);
-    }
+fn take_sight(in: Screen) {
+    sight.ray = in.ray;
+    sight.right = in.right;
+    sight.down = in.down;
+    sight.depth = in.depth;
+    sight.ellipsoid = in.ellipsoid;
+    sight.eye_gradient = in.eye_gradient;
+    sight.foot_gradient = in.foot_gradient;
+    sight.bounds = in.bounds;
+    sight.size = vec4<u32>(in.draw.xy, 0u, 0u);
+}
+
+// How much of a pixel is ink of a hatch that lies at a place on its map.
+fn ink_share(style: u32, phase: vec4<u32>, mapped: Mapped) -> f32 {
+    let kind = kind_of(style);
+    let hatch = styles[style].hatch;
+    let u_slope = length(mapped.u_slope);
+    let u = cells_of(phase.xy, mapped.uv.x, u_slope, hatch.y);
     var covered = 0.0;
-    if needs(NEEDS_LINES | NEEDS_DOTS | NEEDS_CHECKER) {
-        let hatch = styles[style].hatch;
-        let u_slope = length(mapped.u_slope);
-        let u = cells_of(phase.xy, mapped.uv.x, u_slope, hatch.y);
-        if needs(NEEDS_LINES) && (kind == LINES || kind == CROSS) {
-            covered = lines(u, hatch.x);
+    // Where there is one kind, it need not be asked for: other fills have no share of ink.
+    let only_lines = !needs(NEEDS_DOTS | NEEDS_CHECKER);
+    if needs(NEEDS_LINES) && (only_lines || kind == LINES || kind == CROSS) {
+        covered = lines(u, hatch.x);
+    }
+    if needs(NEEDS_ACROSS) {
+        let v_slope = length(mapped.v_slope);
+        let v = cells_of(phase.zw, mapped.uv.y, v_slope, hatch.y);
+        if needs(NEEDS_LINES) && kind == CROSS {
+            covered = 1.0 - (1.0 - covered) * (1.0 - lines(v, hatch.x));
         }
-        if needs(NEEDS_ACROSS) {
-            let v_slope = length(mapped.v_slope);
-            let v = cells_of(phase.zw, mapped.uv.y, v_slope, hatch.y);
-            if needs(NEEDS_LINES) && kind == CROSS {
-                covered = 1.0 - (1.0 - covered) * (1.0 - lines(v, hatch.x));
-            }
-            if needs(NEEDS_DOTS) && kind == DOTS {
-                let u_cells = mapped.u_slope * (u.width / max(u_slope, 1e-30));
-                let v_cells = mapped.v_slope * (v.width / max(v_slope, 1e-30));
-                covered = dots(u, v, u_cells, v_cells, hatch.x);
-            }
-            if needs(NEEDS_CHECKER) && kind == CHECKER {
-                covered = 0.5 + 0.5 * checker_wave(u) * checker_wave(v);
-            }
+        if needs(NEEDS_DOTS) && kind == DOTS {
+            let u_cells = mapped.u_slope * (u.width / max(u_slope, 1e-30));
+            let v_cells = mapped.v_slope * (v.width / max(v_slope, 1e-30));
+            covered = dots(u, v, u_cells, v_cells, hatch.x);
+        }
+        if needs(NEEDS_CHECKER) && kind == CHECKER {
+            covered = 0.5 + 0.5 * checker_wave(u) * checker_wave(v);
         }
     }
-    var ink = styles[style].ink * covered;
-    if needs(NEEDS_TILES) && kind == TILES {
-        ink = tiles(style, phase, mapped);
-    }
-    if needs(NEEDS_CLAMPED | NEEDS_REPEATED) && kind == PICTURE {
-        ink = picture(style, phase, mapped);
-    }
-    return ink;
+    return covered;
 }
 
 fn over(above: vec4<f32>, below: vec4<f32>) -> vec4<f32> {
     return above + below * (1.0 - above.w);
 }
 
-// The colour of a fill without its stroke, premultiplied.
+// The colour of a fill without its stroke, premultiplied, with its opacity.
 fn paint_of(style: u32, seen: Seen) -> vec4<f32> {
-    let patterned = over(ink_of(style, seen), styles[style].color);
-    return over(styles[style].highlight, patterned);
+    var paint = styles[style].paper;
+    if !needs(NEEDS_HATCHES | NEEDS_IMAGES) {
+        return paint;
+    }
+    let place = styles[style].pattern.y;
+    let phase = places[place].phase;
+    var mapped = on_map(places[place], seen);
+    if needs(NEEDS_ANGLES) && places[place].fall.w != 0.0 {
+        mapped = on_angles(places[place], seen);
+    }
+    let inked = styles[style].inked;
+    if needs(NEEDS_HATCHES) {
+        paint = mix(paint, inked, ink_share(style, phase, mapped));
+    }
+    if needs(NEEDS_IMAGES) {
+        let kind = kind_of(style);
+        var texel = vec4<f32>(0.0);
+        if needs(NEEDS_TILES) && kind == TILES {
+            texel = tiles(style, phase, mapped);
+        }
+        if needs(NEEDS_CLAMPED | NEEDS_REPEATED) && kind == PICTURE {
+            texel = picture(style, phase, mapped);
+        }
+        paint += texel - inked * texel.w;
+    }
+    return paint;
 }
 
 // The colour of a fill with its own stroke over it and all that fades both; its alpha is what it hides of
 // what is below. Nothing for what another draw shows.
 fn color_of(fill: u32, stroke: vec4<f32>, seen: Seen, array: u32) -> vec4<f32> {
     let style = max(fill, 1u) - 1u;
-    let color = faded(style, over(stroke, paint_of(style, seen)), seen);
-    let shown = fill != NONE && styles[style].pattern.w == array;
-    return select(vec4<f32>(0.0), color, shown);
+    var color = paint_of(style, seen);
+    if needs(NEEDS_STROKES) {
+        color = stroke * styles[style].hatch.w + color * (1.0 - stroke.w);
+    }
+    var shown = fill != NONE;
+    if needs(NEEDS_IMAGES) {
+        shown = shown && styles[style].pattern.w == array;
+    }
+    return select(vec4<f32>(0.0), left_of(style, color, seen), shown);
 }
 
-fn faded(style: u32, color: vec4<f32>, seen: Seen) -> vec4<f32> {
-    let left = color * opacity_of(style, seen);
-    return vec4<f32>(left.xyz, left.w * styles[style].fade_sine.z);
+// What is left of a colour after fading; its alpha becomes what it hides of what is below.
+fn left_of(style: u32, color: vec4<f32>, seen: Seen) -> vec4<f32> {
+    var left = color;
+    if needs(NEEDS_FADES) {
+        left *= faded(style, seen);
+    }
+    if needs(NEEDS_ADDITIVE) && is_additive(style) {
+        left.w = 0.0;
+    }
+    return left;
+}
+
+// The stroke of a fill that is not the one at the pixel.
+fn stroke_beside(fill: u32, edge: Edge, seen: Seen) -> vec4<f32> {
+    let style = max(fill, 1u) - 1u;
+    return left_of(style, stroke_of(fill, edge) * styles[style].hatch.w, seen);
 }
 
 // The stroke of the fill on one side of the nearest boundary.
 fn stroke_of(fill: u32, edge: Edge) -> vec4<f32> {
     let style = max(fill, 1u) - 1u;
     let size = styles[style].stroke_size;
-    let dash = vec4<f32>(size.zw, styles[style].dash_share, 0.0);
-    let share = stroke_share(edge, fill == edge.left, size.xy, styles[style].align, dash);
+    let dash = vec4<f32>(size.zw, styles[style].fade_sine.z, 0.0);
+    let share = stroke_share(edge, fill == edge.left, size.xy, align_of(style), dash);
     return select(vec4<f32>(0.0), styles[style].stroke * share, fill != NONE);
 }
 
@@ -110,6 +176,9 @@ fn edge_at(texel: vec4<u32>, fill: u32) -> Edge {
 
 fn styled_at(pixel: vec2<u32>, sample: u32, array: u32, last: bool) -> vec4<f32> {
     let fill = fill_at(vec2<i32>(pixel), sample);
+    if !needs(NEEDS_SMOOTH | NEEDS_STROKES) && fill == NONE {
+        discard;
+    }
     let depth = depth_at(pixel, sample);
     let seen = seen_at(vec2<f32>(pixel) + sample_px(sample), depth);
     if !needs(NEEDS_SMOOTH | NEEDS_STROKES) {
@@ -136,10 +205,10 @@ fn styled_at(pixel: vec2<u32>, sample: u32, array: u32, last: bool) -> vec4<f32>
         let lower = min(edge.left, edge.right);
         let upper = max(edge.left, edge.right);
         if lower != fill {
-            color = over(faded(max(lower, 1u) - 1u, stroke_of(lower, edge), seen), color);
+            color = over(stroke_beside(lower, edge, seen), color);
         }
         if upper != fill {
-            color = over(faded(max(upper, 1u) - 1u, stroke_of(upper, edge), seen), color);
+            color = over(stroke_beside(upper, edge, seen), color);
         }
     }
     return color;
@@ -147,10 +216,12 @@ fn styled_at(pixel: vec2<u32>, sample: u32, array: u32, last: bool) -> vec4<f32>
 
 @fragment
 fn fs_styled(in: Screen) -> @location(0) vec4<f32> {
-    return styled_at(vec2<u32>(in.position.xy), 0u, in.array, in.last == 1u);
+    take_sight(in);
+    return styled_at(vec2<u32>(in.position.xy), 0u, in.draw.z, in.draw.w == 1u);
 }
 
 @fragment
 fn fs_styled_sample(in: Screen, @builtin(sample_index) sample: u32) -> @location(0) vec4<f32> {
-    return styled_at(vec2<u32>(in.position.xy), sample, in.array, in.last == 1u);
+    take_sight(in);
+    return styled_at(vec2<u32>(in.position.xy), sample, in.draw.z, in.draw.w == 1u);
 }

@@ -37,7 +37,8 @@ fn seen_at(at_px: vec2<f32>, depth: f32) -> Seen {
     let tau = relative * (a * a) * (1.0 + relative)
         / ((1.0 + sqrt(1.0 + relative)) * dot(gradient, gradient));
     let level = seen.from_eye - (tau - tau_eye) * sight.foot_gradient.xyz;
-    seen.from_foot = level * vec3<f32>(vec2<f32>(1.0 / (1.0 + tau)), 1.0 / (1.0 + tau * squash));
+    let taller = vec2<f32>(1.0 + tau, 1.0 + tau * squash);
+    seen.from_foot = level * (taller.yyx * (1.0 / (taller.x * taller.y)));
     seen.normal = sight.foot_gradient.xyz + m * seen.from_foot;
     // At the limb a pixel spans any length; and slopes of a terrain are seen less obliquely than the level
     // ground they stand on. The normal is longer than a by 0.3 % at most.
@@ -48,7 +49,7 @@ fn seen_at(at_px: vec2<f32>, depth: f32) -> Seen {
         dot(sight.right.xyz, seen.normal),
         dot(sight.down.xyz, seen.normal),
     );
-    seen.lean = across / steep;
+    seen.lean = across * (1.0 / steep);
     return seen;
 }
 

@@ -1,30 +1,26 @@
 // How the fills of a layer look, and where this view's eye finds their patterns.
 
 struct Style {
-    // Premultiplied colours.
-    color: vec4<f32>,
-    highlight: vec4<f32>,
-    // Of lines, dots, squares; of images alpha alone, for all parts.
-    ink: vec4<f32>,
-    stroke: vec4<f32>,
-    // What of: see PLAIN ... PICTURE; index of its place; layer and number of its image's array.
+    // Kind of pattern and what else fits, see kind_of ... is_additive; index of its place; layer and number
+    // of its image's array.
     pattern: vec4<u32>,
+    // Premultiplied colours with highlight and opacity: where there is no ink,
+    paper: vec4<f32>,
+    // and where there is ink alone. Under images: the colour without highlight and opacity.
+    inked: vec4<f32>,
+    // What images are multiplied by: of opacity and of what the highlight leaves.
+    tint: vec4<f32>,
     // Share of ink; spacing in pixels, 0 where the place says it in metres; height over width of a tile;
     // opacity.
     hatch: vec4<f32>,
     // Distance and pixel size where the fill is gone, each with the opacity gained per metre from there.
     fade: vec4<f32>,
-    // The same of the sine of the angle of view. z: how much of what is below the fill hides.
+    // The same of the sine of the angle of view. z: share of dashes of the stroke.
     fade_sine: vec4<f32>,
+    // Premultiplied colour.
+    stroke: vec4<f32>,
     // Of the stroke: width in metres or pixels; period of dashes in metres or pixels.
     stroke_size: vec4<f32>,
-    // Share of dashes.
-    dash_share: f32,
-    // Whether the stroke lies inside, half and half, or outside.
-    align: u32,
-    // What lies outside an image.
-    wrap: u32,
-    unused: u32,
 }
 
 // Kinds of patterns.
@@ -36,8 +32,27 @@ const CHECKER: u32 = 4u;
 const TILES: u32 = 5u;
 const PICTURE: u32 = 6u;
 
+// What lies outside an image.
 const CLIP: u32 = 0u;
 const REPEAT: u32 = 2u;
+
+fn kind_of(style: u32) -> u32 {
+    return styles[style].pattern.x & 7u;
+}
+
+fn wrap_of(style: u32) -> u32 {
+    return (styles[style].pattern.x >> 4u) & 3u;
+}
+
+// Whether the stroke lies inside, half and half, or outside.
+fn align_of(style: u32) -> u32 {
+    return (styles[style].pattern.x >> 6u) & 3u;
+}
+
+// Whether the fill hides nothing of what is below.
+fn is_additive(style: u32) -> bool {
+    return (styles[style].pattern.x & 256u) != 0u;
+}
 
 // Where a pattern lies, as seen from the eye's foot point G. All gradients are per metre there.
 struct Placed {
@@ -53,8 +68,6 @@ struct Placed {
     phase: vec4<u32>,
 }
 
-@group(1) @binding(0) var<storage, read> styles: array<Style>;
-@group(1) @binding(1) var<storage, read> places: array<Placed>;
 // What the edge pass wrote.
 @group(1) @binding(2) var edges: texture_2d<u32>;
 
@@ -71,21 +84,24 @@ const NEEDS_ANGLES: u32 = 128u;
 const NEEDS_FADES: u32 = 256u;
 const NEEDS_STROKES: u32 = 512u;
 const NEEDS_SMOOTH: u32 = 1024u;
+const NEEDS_ADDITIVE: u32 = 2048u;
+const NEEDS_HATCHES: u32 = NEEDS_LINES | NEEDS_DOTS | NEEDS_CHECKER;
+const NEEDS_IMAGES: u32 = NEEDS_TILES | NEEDS_CLAMPED | NEEDS_REPEATED;
 
 fn needs(what: u32) -> bool {
     return (NEEDS & what) != 0u;
 }
 
-// Full opacity, or what fading leaves of it.
-fn opacity_of(style: u32, seen: Seen) -> f32 {
-    var opacity = styles[style].hatch.w;
+// What fading leaves of a fill.
+fn faded(style: u32, seen: Seen) -> f32 {
+    var left = 1.0;
     if needs(NEEDS_FADES) {
         let fade = styles[style].fade;
         let sine = styles[style].fade_sine;
         let pixel = seen.along * length(sight.down.xyz);
-        opacity *= saturate((length(seen.from_eye) - fade.x) * fade.y)
+        left = saturate((length(seen.from_eye) - fade.x) * fade.y)
             * saturate((pixel - fade.z) * fade.w)
             * saturate((sine_of(seen) - sine.x) * sine.y);
     }
-    return opacity;
+    return left;
 }

@@ -31,8 +31,6 @@ struct Sight {
     window: vec4<f32>,
 }
 
-@group(2) @binding(1) var<uniform> sight: Sight;
-
 // What the sensors of the frame need: the rest is compiled away.
 // Some cover from the apex,
 override APEXES: bool = false;

@@ -17,6 +17,7 @@ pub(crate) mod sensor_pipelines;
 pub(crate) mod sensor_view;
 pub(crate) mod stream_buffer;
 pub(crate) mod style_pipelines;
+pub(crate) mod style_record;
 pub(crate) mod style_table;
 pub(crate) mod style_view;
 pub(crate) mod surface_binding;

@@ -14,11 +14,14 @@ const PICK: &str = include_str!("../shaders/pick.wgsl");
 const RESOLVE: &str = include_str!("../shaders/resolve.wgsl");
 const ARCTANGENT: &str = include_str!("../shaders/arctangent.wgsl");
 const STYLE: &str = include_str!("../shaders/style.wgsl");
+const STYLES_STORAGE: &str = include_str!("../shaders/styles_storage.wgsl");
+const STYLES_UNIFORM: &str = include_str!("../shaders/styles_uniform.wgsl");
 const MAP: &str = include_str!("../shaders/map.wgsl");
 const HATCH: &str = include_str!("../shaders/hatch.wgsl");
 const PICTURE: &str = include_str!("../shaders/picture.wgsl");
 const RESOLVE_STYLED: &str = include_str!("../shaders/resolve_styled.wgsl");
 const SEEN: &str = include_str!("../shaders/seen.wgsl");
+const SIGHT: &str = include_str!("../shaders/sight.wgsl");
 const SURFACE: &str = include_str!("../shaders/surface.wgsl");
 const PIXEL: &str = include_str!("../shaders/pixel.wgsl");
 const EDGE: &str = include_str!("../shaders/edge.wgsl");
@@ -59,8 +62,8 @@ pub fn resolve(sample_count: u32) -> String {
     [SCREEN, planes(sample_count), LAYER, RESOLVE].concat()
 }
 
-/// Decoding, surface positions, patterns.
-pub fn resolve_styled(sample_count: u32) -> String {
+/// Decoding, surface positions, patterns; `few` where styles and places fit into uniforms.
+pub fn resolve_styled(sample_count: u32, few: bool) -> String {
     let parts = [
         SCREEN,
         planes(sample_count),
@@ -70,6 +73,7 @@ pub fn resolve_styled(sample_count: u32) -> String {
         SEEN,
         ARCTANGENT,
         STYLE,
+        if few { STYLES_UNIFORM } else { STYLES_STORAGE },
         MAP,
         HATCH,
         PICTURE,
@@ -110,6 +114,7 @@ pub fn edge(sample_count: u32) -> String {
     let parts = [
         EXTRUDE,
         FACE,
+        SIGHT,
         SURFACE,
         PIXEL,
         depth(sample_count),
@@ -122,19 +127,29 @@ pub fn edge(sample_count: u32) -> String {
 /// Which sensors cover which tiles.
 pub fn bin_sensors(sample_count: u32) -> String {
     let depth = depth(sample_count);
-    let parts = [SURFACE, SENSOR, depth, TILE, TILES_WRITE, LIST, BIN_SENSORS];
+    let parts = [
+        SIGHT,
+        SURFACE,
+        SENSOR,
+        depth,
+        TILE,
+        TILES_WRITE,
+        LIST,
+        BIN_SENSORS,
+    ];
     parts.concat()
 }
 
 /// How many sensors cover one pixel.
 pub fn count_sensors(sample_count: u32) -> String {
-    [SURFACE, SENSOR, depth(sample_count), COUNT_SENSORS].concat()
+    [SIGHT, SURFACE, SENSOR, depth(sample_count), COUNT_SENSORS].concat()
 }
 
 /// The colour of the sensors that cover each pixel.
 pub fn resolve_sensors(sample_count: u32) -> String {
     let depth = depth(sample_count);
     let parts = [
+        SIGHT,
         SURFACE,
         SENSOR,
         depth,
@@ -155,8 +170,9 @@ pub fn all() -> Vec<(&'static str, String)> {
         ("copy_depth_multisampled", copy_depth(4)),
         ("resolve", resolve(1)),
         ("resolve_multisampled", resolve(4)),
-        ("resolve_styled", resolve_styled(1)),
-        ("resolve_styled_multisampled", resolve_styled(4)),
+        ("resolve_styled", resolve_styled(1, true)),
+        ("resolve_styled_many", resolve_styled(1, false)),
+        ("resolve_styled_multisampled", resolve_styled(4, true)),
         ("pick", pick(1)),
         ("pick_multisampled", pick(4)),
         ("edge", edge(1)),
@@ -178,7 +194,7 @@ mod tests {
         frame::edge_uniform::EdgeUniform, frame::placed::Placed,
         frame::sensor_record::SensorRecord, frame::sight_uniform::SightUniform,
         gpu::gpu_mesh::ArcRecord, gpu::layer_tables::LayerHead, gpu::pick_pipeline::AnswerHead,
-        gpu::style_table::StyleRecord, view::FrameUniform,
+        gpu::style_record::StyleRecord, view::FrameUniform,
     };
 
     /// Members of a WGSL struct with their offsets, bytes, and the size of the whole.
@@ -269,11 +285,10 @@ mod tests {
 
     #[test]
     fn styles_and_places_have_the_layout_of_the_shader() {
-        let source = super::resolve_styled(1);
+        let source = super::resolve_styled(1, true);
         let (members, size) = layout_of(&source, "Style");
         let expected = offsets!(
-            StyleRecord: color, highlight, ink, stroke, pattern, hatch, fade, fade_sine,
-            stroke_size, dash_share, align, wrap, unused
+            StyleRecord: pattern, paper, inked, tint, hatch, fade, fade_sine, stroke, stroke_size
         );
         assert_eq!(members, expected);
         assert_eq!(size, size_of::<StyleRecord>());
@@ -284,8 +299,8 @@ mod tests {
 
     #[test]
     fn styles_need_what_the_shader_says() {
-        use crate::gpu::style_table as table;
-        let source = super::resolve_styled(1);
+        use crate::gpu::style_record as table;
+        let source = super::resolve_styled(1, true);
         let needs = [
             ("LINES", table::LINES),
             ("ACROSS", table::ACROSS),
@@ -298,6 +313,7 @@ mod tests {
             ("FADES", table::FADES),
             ("STROKES", table::STROKES),
             ("SMOOTH", table::SMOOTH),
+            ("ADDITIVE", table::ADDITIVE),
         ];
         for (name, bit) in needs {
             let expected = format!("const NEEDS_{name}: u32 = {bit}u;");

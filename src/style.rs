@@ -137,16 +137,16 @@ impl FillStyle {
     /// Colour, highlight, opacity and blend of a solid fill in one: premultiplied, with the alpha that
     /// hides what is below.
     pub(crate) fn solid_color(&self) -> [f32; 4] {
-        let over = premultiplied(self.highlight);
-        let below = premultiplied(self.color).map(|part| part * (1.0 - over[3]));
-        let hides = match self.blend {
-            Blend::Alpha => 1.0,
-            Blend::Additive => 0.0,
-        };
-        let mut parts: [f32; 4] =
-            std::array::from_fn(|part| self.opacity * (over[part] + below[part]));
-        parts[3] *= hides;
+        let mut parts = self.shown(premultiplied(self.color));
+        if self.blend == Blend::Additive {
+            parts[3] = 0.0;
+        }
         parts
+    }
+
+    /// A premultiplied colour under the highlight, with the opacity.
+    pub(crate) fn shown(&self, color: [f32; 4]) -> [f32; 4] {
+        over(premultiplied(self.highlight), color).map(|part| self.opacity * part)
     }
 
     /// Checks all that does not depend on the renderer.
@@ -204,6 +204,11 @@ pub(crate) fn check_length(name: &'static str, length: Length) -> Result<(), Sty
     } else {
         Err(StyleError::OutOfRange(name))
     }
+}
+
+/// One premultiplied colour over another.
+pub(crate) fn over(above: [f32; 4], below: [f32; 4]) -> [f32; 4] {
+    std::array::from_fn(|part| above[part] + below[part] * (1.0 - above[3]))
 }
 
 /// A colour multiplied by its alpha.

@@ -11,7 +11,11 @@ use crate::{
     frame::layers::{Layer, Layering, Styled},
     frame::placed::PatternPlace,
     gpu::planes::Planes,
-    gpu::style_table::{StyleSource, StyleTable, edges_of},
+    gpu::style_pipelines::StyleKey,
+    gpu::style_table::{
+        MOST_UNIFORM_PLACES, StyleSource, StyleTable, UNIFORM_PLACES_BYTES, UNIFORM_STYLES_BYTES,
+        edges_of,
+    },
     options::CountTechnique,
 };
 
@@ -64,13 +68,10 @@ impl LayerTables {
             .iter()
             .map(|layer| edges_of(layer, from))
             .collect::<Result<_, _>>()?;
-        let style_buffers = styles.iter().flatten().map(|table| &table.styles);
+        let style_bytes = styles.iter().flatten().map(|table| table.bytes);
+        let table_bytes = tables.iter().map(wgpu::Buffer::size);
         Ok(Self {
-            bytes: tables
-                .iter()
-                .chain(style_buffers)
-                .map(wgpu::Buffer::size)
-                .sum(),
+            bytes: table_bytes.chain(style_bytes).sum(),
             layering,
             styles,
             places,
@@ -78,6 +79,17 @@ impl LayerTables {
             tables,
             mantissa,
         })
+    }
+
+    /// The pipeline that resolves a layer with styles: they are read as uniforms where they and all
+    /// places are few.
+    pub(crate) fn style_key(&self, device: &wgpu::Device, table: &StyleTable) -> StyleKey {
+        let most_bytes = device.limits().max_uniform_buffer_binding_size;
+        let fits = UNIFORM_STYLES_BYTES.max(UNIFORM_PLACES_BYTES) <= most_bytes;
+        StyleKey {
+            needs: table.needs,
+            few: table.few && self.places.len() <= MOST_UNIFORM_PLACES && fits,
+        }
     }
 
     /// Planes of each layer.

@@ -25,6 +25,18 @@ impl StreamBuffer {
         }
     }
 
+    /// A buffer that holds `least` bytes before it grows.
+    pub(crate) fn with_size(
+        device: &wgpu::Device,
+        label: &'static str,
+        usage: wgpu::BufferUsages,
+        least: u64,
+    ) -> Self {
+        let mut stream = Self::new(device, label, usage);
+        stream.buffer = allocate(device, label, stream.usage, least);
+        stream
+    }
+
     /// Makes the buffer start with `bytes` (a multiple of 4). Returns how many were uploaded and
     /// whether the buffer had to be replaced, which invalidates bind groups.
     pub(crate) fn write(

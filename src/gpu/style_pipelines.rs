@@ -6,23 +6,38 @@ use glam::UVec2;
 
 use crate::{
     gpu::edge_pipelines::EdgePipelines, gpu::edge_view::edge_target, gpu::pipelines::layout,
-    gpu::style_table::Needs, gpu::surface_binding::surface_layout, options::RendererOptions,
+    gpu::style_record::Needs, gpu::surface_binding::surface_layout, options::RendererOptions,
     shaders,
 };
 
-/// Layouts, the shader module and the pipelines made so far.
+/// What a pipeline is made for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct StyleKey {
+    pub needs: Needs,
+    /// Whether styles and places are few enough for uniforms.
+    pub few: bool,
+}
+
+/// Layouts, the shader modules and the pipelines made so far.
 pub(crate) struct StylePipelines {
     options: RendererOptions,
-    /// Styles of a layer, places of patterns, distances from boundaries.
-    pub style_layout: wgpu::BindGroupLayout,
+    layer_layout: wgpu::BindGroupLayout,
     pub surface_layout: wgpu::BindGroupLayout,
+    image_layout: wgpu::BindGroupLayout,
     /// One texel, for layers whose boundaries are not measured.
     pub no_edges: wgpu::TextureView,
     /// Made when a frame first needs distances from boundaries.
     pub edges: Option<EdgePipelines>,
+    /// For styles that are few, and for many.
+    programs: HashMap<bool, Program>,
+    made: HashMap<StyleKey, wgpu::RenderPipeline>,
+}
+
+struct Program {
+    /// Styles of a layer, places of patterns, distances from boundaries.
+    style_layout: wgpu::BindGroupLayout,
     pipeline_layout: wgpu::PipelineLayout,
     module: wgpu::ShaderModule,
-    made: HashMap<Needs, wgpu::RenderPipeline>,
 }
 
 impl StylePipelines {
@@ -33,10 +48,50 @@ impl StylePipelines {
         layer_layout: &wgpu::BindGroupLayout,
         image_layout: &wgpu::BindGroupLayout,
     ) -> Self {
-        let fragment = wgpu::ShaderStages::FRAGMENT;
         let both = wgpu::ShaderStages::VERTEX_FRAGMENT;
-        let read = wgpu::BindingType::Buffer {
-            ty: wgpu::BufferBindingType::Storage { read_only: true },
+        Self {
+            options,
+            layer_layout: layer_layout.clone(),
+            surface_layout: surface_layout(device, options.sample_count, both),
+            image_layout: image_layout.clone(),
+            no_edges: edge_target(device, UVec2::ONE),
+            edges: None,
+            programs: HashMap::new(),
+            made: HashMap::new(),
+        }
+    }
+
+    /// Compiles the pipeline if it does not exist yet.
+    pub(crate) fn ensure(&mut self, device: &wgpu::Device, key: StyleKey) {
+        if self.made.contains_key(&key) {
+            return;
+        }
+        if !self.programs.contains_key(&key.few) {
+            let program = self.program(device, key.few);
+            self.programs.insert(key.few, program);
+        }
+        let pipeline = self.make(device, &self.programs[&key.few], key.needs);
+        self.made.insert(key, pipeline);
+    }
+
+    /// A pipeline that `ensure` was called for.
+    pub(crate) fn get(&self, key: StyleKey) -> Option<&wgpu::RenderPipeline> {
+        self.made.get(&key)
+    }
+
+    /// How styles and places are bound, for a key that `ensure` was called for.
+    pub(crate) fn style_layout(&self, key: StyleKey) -> &wgpu::BindGroupLayout {
+        &self.programs[&key.few].style_layout
+    }
+
+    fn program(&self, device: &wgpu::Device, few: bool) -> Program {
+        let ty = if few {
+            wgpu::BufferBindingType::Uniform
+        } else {
+            wgpu::BufferBindingType::Storage { read_only: true }
+        };
+        let table = wgpu::BindingType::Buffer {
+            ty,
             has_dynamic_offset: false,
             min_binding_size: None,
         };
@@ -45,44 +100,30 @@ impl StylePipelines {
             view_dimension: wgpu::TextureViewDimension::D2,
             multisampled: false,
         };
-        let bindings = [read, read, edges];
-        let style_layout = layout(device, "globefill styles", fragment, &bindings);
-        let surface_layout = surface_layout(device, options.sample_count, both);
-        let groups = [layer_layout, &style_layout, &surface_layout, image_layout];
-        let source = shaders::resolve_styled(options.sample_count);
-        Self {
-            options,
+        let fragment = wgpu::ShaderStages::FRAGMENT;
+        let style_layout = layout(device, "globefill styles", fragment, &[table, table, edges]);
+        let groups = [
+            &self.layer_layout,
+            &style_layout,
+            &self.surface_layout,
+            &self.image_layout,
+        ];
+        let source = shaders::resolve_styled(self.options.sample_count, few);
+        Program {
             pipeline_layout: device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
                 label: Some("globefill styled"),
                 bind_group_layouts: &groups.map(Some),
                 immediate_size: 0,
             }),
-            no_edges: edge_target(device, UVec2::ONE),
-            edges: None,
-            style_layout,
-            surface_layout,
             module: device.create_shader_module(wgpu::ShaderModuleDescriptor {
                 label: Some("globefill styled"),
                 source: wgpu::ShaderSource::Wgsl(source.into()),
             }),
-            made: HashMap::new(),
+            style_layout,
         }
     }
 
-    /// Compiles the pipeline if it does not exist yet.
-    pub(crate) fn ensure(&mut self, device: &wgpu::Device, needs: Needs) {
-        if !self.made.contains_key(&needs) {
-            let pipeline = self.make(device, needs);
-            self.made.insert(needs, pipeline);
-        }
-    }
-
-    /// A pipeline that `ensure` was called for.
-    pub(crate) fn get(&self, needs: Needs) -> Option<&wgpu::RenderPipeline> {
-        self.made.get(&needs)
-    }
-
-    fn make(&self, device: &wgpu::Device, needs: Needs) -> wgpu::RenderPipeline {
+    fn make(&self, device: &wgpu::Device, program: &Program, needs: Needs) -> wgpu::RenderPipeline {
         let samples = self.options.sample_count;
         let entry = if samples > 1 {
             "fs_styled_sample"
@@ -96,9 +137,9 @@ impl StylePipelines {
         };
         device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(entry),
-            layout: Some(&self.pipeline_layout),
+            layout: Some(&program.pipeline_layout),
             vertex: wgpu::VertexState {
-                module: &self.module,
+                module: &program.module,
                 entry_point: Some("vs_styled"),
                 compilation_options: options.clone(),
                 buffers: &[],
@@ -113,7 +154,7 @@ impl StylePipelines {
                 ..Default::default()
             },
             fragment: Some(wgpu::FragmentState {
-                module: &self.module,
+                module: &program.module,
                 entry_point: Some(entry),
                 compilation_options: options,
                 targets: &[Some(wgpu::ColorTargetState {

@@ -9,8 +9,8 @@ use crate::{
     gpu::image_arrays::ImageArrays,
     gpu::layer_tables::LayerTables,
     gpu::stream_buffer::StreamBuffer,
-    gpu::style_pipelines::StylePipelines,
-    gpu::style_table::Needs,
+    gpu::style_pipelines::{StyleKey, StylePipelines},
+    gpu::style_table::{UNIFORM_PLACES_BYTES, UNIFORM_STYLES_BYTES},
     gpu::surface_binding::SurfaceBinding,
     options::CountTechnique,
 };
@@ -30,7 +30,7 @@ pub(crate) struct StyleView {
 }
 
 struct StyledLayer {
-    needs: Needs,
+    key: StyleKey,
     arrays: Vec<u32>,
     group: wgpu::BindGroup,
 }
@@ -52,10 +52,11 @@ pub(crate) struct StyleFrame<'a> {
 
 impl StyleView {
     pub(crate) fn new(device: &wgpu::Device) -> Self {
-        let storage = wgpu::BufferUsages::STORAGE;
+        let either = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::UNIFORM;
+        let places = "globefill places";
         Self {
             surface: SurfaceBinding::new(device),
-            places: StreamBuffer::new(device, "globefill places", storage),
+            places: StreamBuffer::with_size(device, places, either, UNIFORM_PLACES_BYTES),
             edges: None,
             edge_cost: EdgeCost::default(),
             layers: Vec::new(),
@@ -113,9 +114,18 @@ impl StyleView {
         let styled = tables.styles.iter().enumerate().map(|(layer, table)| {
             let table = table.as_ref()?;
             let edges = self.edges.as_ref().and_then(|edges| edges.target(layer));
+            let key = tables.style_key(device, table);
+            // Uniforms have a largest size.
+            let bound = |buffer, few_bytes| {
+                wgpu::BindingResource::Buffer(wgpu::BufferBinding {
+                    buffer,
+                    offset: 0,
+                    size: wgpu::BufferSize::new(few_bytes).filter(|_| key.few),
+                })
+            };
             let resources = [
-                table.styles.as_entire_binding(),
-                self.places.buffer.as_entire_binding(),
+                bound(&table.styles, UNIFORM_STYLES_BYTES),
+                bound(&self.places.buffer, UNIFORM_PLACES_BYTES),
                 wgpu::BindingResource::TextureView(edges.unwrap_or(&pipelines.no_edges)),
             ];
             let entries: Vec<_> = (0..)
@@ -123,11 +133,11 @@ impl StyleView {
                 .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource })
                 .collect();
             Some(StyledLayer {
-                needs: table.needs,
+                key,
                 arrays: table.arrays.clone(),
                 group: device.create_bind_group(&wgpu::BindGroupDescriptor {
                     label: Some("globefill styles"),
-                    layout: &pipelines.style_layout,
+                    layout: pipelines.style_layout(key),
                     entries: &entries,
                 }),
             })
@@ -171,7 +181,7 @@ impl StyleView {
         let (Some(styled), Some(surface)) = (styled, self.surface.group()) else {
             return;
         };
-        let Some(pipeline) = pipelines.get(styled.needs) else {
+        let Some(pipeline) = pipelines.get(styled.key) else {
             return;
         };
         pass.set_pipeline(pipeline);

@@ -199,7 +199,7 @@ impl Renderer {
             pipelines.edges = Some(edges);
         }
         for table in tables.styles.iter().flatten() {
-            pipelines.ensure(device, table.needs);
+            pipelines.ensure(device, tables.style_key(device, table));
         }
         let frame = &prepared.frame;
         let reference = Reference::new(sight.ellipsoid, frame.camera.eye_ecef_m);
