@@ -80,8 +80,14 @@ fn sampled(filtering: sampler, at: vec2<f32>, layer: u32, mapped: Mapped) -> vec
     let taps = floor(clamp(longer / max(area, 1e-12) + 0.5, 1.0, most));
     let level = sharper(0.5 * log2_of(max(longer, 1e-12)) - log2_of(taps));
     var sum = vec4<f32>(0.0);
-    for (var tap = 0.5; tap < taps; tap += 1.0) {
+    var tap = 0.5;
+    // There is one at least: asked for afterwards, software does not take one too many.
+    loop {
         sum += textureSampleLevel(images, filtering, at + (tap / taps - 0.5) * long, layer, level);
+        continuing {
+            tap += 1.0;
+            break if tap >= taps;
+        }
     }
     return sum / taps;
 }
