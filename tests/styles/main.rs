@@ -13,6 +13,8 @@ mod edges;
 mod hosts;
 mod images;
 mod ink;
+mod many;
+
 mod ramps;
 mod refusals;
 mod seams;
