@@ -28,7 +28,7 @@ fn picture(style: u32, phase: vec4<u32>, mapped: Mapped) -> vec4<f32> {
     if needs(NEEDS_REPEATED) && wrap == REPEAT {
         texel = sampled(repeated, fract(fraction), layer, mapped);
     }
-    return texel * styles[style].tint;
+    return texel * styles[style].tint.w;
 }
 
 // An image that repeats like a hatch, at two scales while one turns into the other.

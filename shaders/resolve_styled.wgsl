@@ -96,8 +96,11 @@ fn paint_of(style: u32, seen: Seen) -> vec4<f32> {
     }
     let place = styles[style].pattern.y;
     let phase = places[place].phase;
-    var mapped = on_map(places[place], seen);
-    if needs(NEEDS_ANGLES) && places[place].fall.w != 0.0 {
+    var mapped: Mapped;
+    if needs(NEEDS_MAPS) {
+        mapped = on_map(places[place], seen);
+    }
+    if needs(NEEDS_ANGLES) && (!needs(NEEDS_MAPS) || places[place].fall.w != 0.0) {
         mapped = on_angles(places[place], seen);
     }
     let inked = styles[style].inked;

@@ -314,6 +314,7 @@ mod tests {
             ("STROKES", table::STROKES),
             ("SMOOTH", table::SMOOTH),
             ("ADDITIVE", table::ADDITIVE),
+            ("MAPS", table::MAPS),
         ];
         for (name, bit) in needs {
             let expected = format!("const NEEDS_{name}: u32 = {bit}u;");

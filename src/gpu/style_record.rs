@@ -23,6 +23,7 @@ pub(crate) const FADES: Needs = 256;
 pub(crate) const STROKES: Needs = 512;
 pub(crate) const SMOOTH: Needs = 1024;
 pub(crate) const ADDITIVE: Needs = 2048;
+pub(crate) const MAPS: Needs = 4096;
 
 /// Kinds of patterns; as in style.wgsl.
 const KIND_PLAIN: u32 = 0;
@@ -57,20 +58,23 @@ pub(crate) struct StyleRecord {
 pub(crate) fn needs_of(style: &FillStyle) -> Needs {
     let pattern = match style.pattern {
         None => 0,
-        Some(Pattern::Hatch(hatch)) => match hatch.kind {
-            HatchKind::Lines => LINES,
-            HatchKind::Cross => LINES | ACROSS,
-            HatchKind::Dots => DOTS | ACROSS,
-            HatchKind::Checker => CHECKER | ACROSS,
-            HatchKind::Image(_) => TILES,
-        },
+        Some(Pattern::Hatch(hatch)) => {
+            let kind = match hatch.kind {
+                HatchKind::Lines => LINES,
+                HatchKind::Cross => LINES | ACROSS,
+                HatchKind::Dots => DOTS | ACROSS,
+                HatchKind::Checker => CHECKER | ACROSS,
+                HatchKind::Image(_) => TILES,
+            };
+            kind | MAPS
+        }
         Some(Pattern::Image(image)) => {
             let wrap = match image.wrap {
                 Wrap::Clip | Wrap::Clamp => CLAMPED,
                 Wrap::Repeat => REPEATED,
             };
             match image.placement {
-                Placement::Local { .. } => wrap,
+                Placement::Local { .. } => wrap | MAPS,
                 Placement::Geodetic(_) | Placement::Spherical(_) => wrap | ANGLES,
             }
         }
