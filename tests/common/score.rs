@@ -191,7 +191,7 @@ fn verdict(
 }
 
 /// Distance on the screen from a pixel to a region's boundary, raised to the surface's height.
-fn boundary_distance_px(
+pub fn boundary_distance_px(
     oracle: &Oracle,
     surface: &Surface,
     region: u32,
