@@ -1,11 +1,14 @@
 // Resolving: the counted sums name the fill at each pixel; its colour goes to the host's target.
 
+// Premultiplied colours by id - 1.
+@group(0) @binding(1) var<storage, read> colors: array<vec4<f32>>;
+
 fn color_at(pixel: vec2<i32>, sample: u32) -> vec4<f32> {
     let fill = fill_at(pixel, sample);
     if fill == NONE {
         discard;
     }
-    return layer.colors[fill - 1u];
+    return colors[fill - 1u];
 }
 
 @fragment

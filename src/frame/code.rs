@@ -8,8 +8,8 @@
 pub(crate) const MAX_PLANES: u32 = 4;
 /// Digits are stored in 8 bits.
 const MAX_BASE: u32 = 256;
-/// Check digits are below the first of these that leaves head-room.
-const CHECK_BASES: [u32; 2] = [32, 4];
+/// Check digits have the first of these numbers of bits that leaves head-room.
+const CHECK_BITS: [u32; 2] = [5, 2];
 
 /// One number for each plane of a code.
 pub(crate) type PlaneSums = [u64; MAX_PLANES as usize];
@@ -44,8 +44,8 @@ pub(crate) struct Code {
     pub base: u32,
     pub digits: u32,
     pub planes: u32,
-    /// Base of the planes behind the digits, which check them.
-    pub check_base: u32,
+    /// Bits of the planes behind the digits, which check them.
+    pub check_bits: u32,
 }
 
 impl Code {
@@ -68,7 +68,7 @@ impl Code {
         } else {
             &[(1, 2), (2, 4), (3, 4)]
         };
-        CHECK_BASES.into_iter().flat_map(move |check_base| {
+        CHECK_BITS.into_iter().flat_map(move |check_bits| {
             shapes.iter().filter_map(move |&(digits, planes)| {
                 let base = (2..=MAX_BASE).find(|base| base.pow(digits) > fills)?;
                 Some(Self {
@@ -76,7 +76,7 @@ impl Code {
                     base,
                     digits,
                     planes,
-                    check_base,
+                    check_bits,
                 })
             })
         })
@@ -93,15 +93,15 @@ impl Code {
         sums
     }
 
-    /// The digits and checks that make up the code of `id`; the same as `planes_of` in resolve.wgsl.
+    /// The digits and checks that make up the code of `id`; as layer.wgsl knows them.
     pub(crate) fn planes_of(&self, id: u32) -> [u32; MAX_PLANES as usize] {
         // Far from linear in the id, so that A − B + C rarely checks (lowbias32 of C. Wellons).
         let mut mixed = (id ^ (id >> 16)).wrapping_mul(0x7feb_352d);
         mixed = (mixed ^ (mixed >> 15)).wrapping_mul(0x846c_a68b);
         mixed ^= mixed >> 16;
         let checks = [
-            mixed % self.check_base,
-            mixed / self.check_base % self.check_base,
+            mixed & ((1 << self.check_bits) - 1),
+            mixed >> self.check_bits & ((1 << self.check_bits) - 1),
         ];
         let mut planes = [0; MAX_PLANES as usize];
         let mut rest = id;

@@ -23,7 +23,7 @@ use crate::{
 pub(crate) struct LayerTables {
     /// Shared with those who asked which fills a pixel shows.
     pub layering: Arc<Layering>,
-    pub tables: Vec<wgpu::Buffer>,
+    pub tables: Vec<LayerTable>,
     /// Of the layers that plain colours do not do for.
     pub styles: Vec<Option<StyleTable>>,
     /// Where their patterns lie.
@@ -52,10 +52,10 @@ impl LayerTables {
                 Mantissa::Single
             }
         };
-        let tables: Vec<wgpu::Buffer> = layering
+        let tables: Vec<LayerTable> = layering
             .layers
             .iter()
-            .map(|layer| table(device, layer, from.styled))
+            .map(|layer| LayerTable::new(device, layer, from.styled))
             .collect();
         let mut places = Vec::new();
         let styles: Vec<Option<StyleTable>> = layering
@@ -69,7 +69,7 @@ impl LayerTables {
             .map(|layer| edges_of(layer, from))
             .collect::<Result<_, _>>()?;
         let style_bytes = styles.iter().flatten().map(|table| table.bytes);
-        let table_bytes = tables.iter().map(wgpu::Buffer::size);
+        let table_bytes = tables.iter().map(LayerTable::bytes);
         Ok(Self {
             bytes: table_bytes.chain(style_bytes).sum(),
             layering,
@@ -117,7 +117,7 @@ impl LayerTables {
     }
 }
 
-/// The head of `Layer` in resolve.wgsl; premultiplied colours follow.
+/// `Layer` of layer.wgsl; see there.
 #[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
 pub(crate) struct LayerHead {
@@ -125,30 +125,49 @@ pub(crate) struct LayerHead {
     pub base: u32,
     pub digits: u32,
     pub planes: u32,
-    pub check_base: u32,
-    /// Colours start at a multiple of 16 bytes.
+    pub check_bits: u32,
+    /// Uniforms end at a multiple of 16 bytes.
     pub padding: [u32; 3],
 }
 
-fn table(device: &wgpu::Device, layer: &Layer, styled: &[Styled<'_>]) -> wgpu::Buffer {
-    let head = LayerHead {
-        fills: layer.code.fills,
-        base: layer.code.base,
-        digits: layer.code.digits,
-        planes: layer.code.planes,
-        check_base: layer.code.check_base,
-        padding: [0; 3],
-    };
-    let mut bytes = bytemuck::bytes_of(&head).to_vec();
-    for fill in &layer.fills {
-        let style = &styled[fill.mesh].styles[fill.fill as usize];
-        bytes.extend_from_slice(bytemuck::bytes_of(&style.solid_color()));
+/// How the sums of a layer are read, and the colours of its fills.
+pub(crate) struct LayerTable {
+    pub head: wgpu::Buffer,
+    pub colors: wgpu::Buffer,
+}
+
+impl LayerTable {
+    fn new(device: &wgpu::Device, layer: &Layer, styled: &[Styled<'_>]) -> Self {
+        let head = LayerHead {
+            fills: layer.code.fills,
+            base: layer.code.base,
+            digits: layer.code.digits,
+            planes: layer.code.planes,
+            check_bits: layer.code.check_bits,
+            padding: [0; 3],
+        };
+        let colors: Vec<[f32; 4]> = layer
+            .fills
+            .iter()
+            .map(|fill| styled[fill.mesh].styles[fill.fill as usize].solid_color())
+            .collect();
+        let buffer = |label, contents, usage| {
+            device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                label: Some(label),
+                contents,
+                usage,
+            })
+        };
+        let (uniform, storage) = (wgpu::BufferUsages::UNIFORM, wgpu::BufferUsages::STORAGE);
+        Self {
+            head: buffer("globefill layer", bytemuck::bytes_of(&head), uniform),
+            colors: buffer("globefill colors", bytemuck::cast_slice(&colors), storage),
+        }
     }
-    device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-        label: Some("globefill layer"),
-        contents: &bytes,
-        usage: wgpu::BufferUsages::STORAGE,
-    })
+
+    fn bytes(&self) -> u64 {
+        self.head.size() + self.colors.size()
+    }
 }
 
 /// Fails unless the device has what is needed.

@@ -94,7 +94,7 @@ impl Pipelines {
             has_dynamic_offset: false,
             min_binding_size: None,
         };
-        let mut resolve_bindings = vec![storage];
+        let mut resolve_bindings = vec![uniform, storage];
         resolve_bindings.extend(vec![float; plane_textures]);
         let (vertex, fragment) = (wgpu::ShaderStages::VERTEX, wgpu::ShaderStages::FRAGMENT);
         Self {

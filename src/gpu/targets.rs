@@ -3,8 +3,8 @@
 use glam::UVec2;
 
 use crate::{
-    frame::code::MAX_PLANES, gpu::fixed_function::STENCIL_FORMAT, gpu::pipelines::Pipelines,
-    gpu::planes::Planes, pick::Pick,
+    frame::code::MAX_PLANES, gpu::fixed_function::STENCIL_FORMAT, gpu::layer_tables::LayerTable,
+    gpu::pipelines::Pipelines, gpu::planes::Planes, pick::Pick,
 };
 
 /// What targets depend on.
@@ -39,7 +39,7 @@ impl Targets {
         device: &wgpu::Device,
         pipelines: &Pipelines,
         sample_count: u32,
-        layer_tables: &[wgpu::Buffer],
+        layer_tables: &[LayerTable],
         pick: Pick,
         key: TargetsKey,
     ) -> Self {
@@ -98,17 +98,18 @@ fn resolve_group(
     device: &wgpu::Device,
     pipelines: &Pipelines,
     sample_count: u32,
-    table: &wgpu::Buffer,
+    table: &LayerTable,
     planes: &[wgpu::TextureView],
 ) -> wgpu::BindGroup {
-    let mut entries = vec![wgpu::BindGroupEntry {
-        binding: 0,
-        resource: table.as_entire_binding(),
-    }];
+    let tables = [&table.head, &table.colors].map(wgpu::Buffer::as_entire_binding);
+    let mut entries: Vec<_> = (0..)
+        .zip(tables)
+        .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource })
+        .collect();
     // The shader masks planes that the code does not have; any texture does for them.
     let bound = if sample_count > 1 { MAX_PLANES } else { 1 };
     entries.extend((0..bound).map(|plane| wgpu::BindGroupEntry {
-        binding: plane + 1,
+        binding: plane + 2,
         resource: wgpu::BindingResource::TextureView(
             &planes[(plane as usize).min(planes.len() - 1)],
         ),
