@@ -43,8 +43,8 @@ pub enum RegionError {
         /// What is wrong with it.
         error: ZoneError,
     },
-    /// The ellipsoid's radii are not finite and positive, larger than positions can be encoded for
-    /// (6 700 km), or its flattening is beyond 1/50, up to which the error bounds are proven.
+    /// The ellipsoid's radii are not numbers from 1 m to 6 700 km, up to which positions can be
+    /// encoded, or its flattening is beyond 1/50, up to which the error bounds are proven.
     #[error("no fills on an ellipsoid with radii of {a_m} m and {b_m} m")]
     InvalidEllipsoid {
         /// Equatorial radius, metres.
