@@ -112,6 +112,11 @@ impl Authalic {
         }
     }
 
+    /// The share of the globe to the left of closed directed edges, 0 … 1.
+    pub(crate) fn left_share(&self, enclosed: Enclosed) -> f64 {
+        self.left_m2(enclosed) / self.globe_m2()
+    }
+
     /// What closed directed edges enclose; they may pass the poles.
     pub(crate) fn enclosed(&self, graph: &BoundaryGraph, edges: &[DirectedEdge]) -> Enclosed {
         let mut sum = Enclosed::default();

@@ -382,6 +382,7 @@ impl FillMesh {
     /// Adds the triangles of every piece and its interior vertices.
     fn add_caps(&mut self, graph: &BoundaryGraph, pieces: &[Boundary], runs: &VertexRuns) {
         let ellipsoid = self.ellipsoid;
+        let authalic = Authalic::new(ellipsoid);
         let boundary_vertices = &self.vertices[..];
         let margin_m = self.arcs_margin_m();
         let caps: Vec<(Caps, Bounds)> = pieces
@@ -392,7 +393,8 @@ impl FillMesh {
                     .iter()
                     .map(|edges| runs.loop_vertices(graph, edges))
                     .collect();
-                let caps = triangulate(ellipsoid, boundary_vertices, &loops);
+                let inside_sr = authalic.left_share(piece.enclosed) * 4.0 * std::f64::consts::PI;
+                let caps = triangulate(ellipsoid, boundary_vertices, &loops, inside_sr);
                 let bounds = if loops.is_empty() {
                     Bounds::globe()
                 } else {
