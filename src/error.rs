@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use crate::{
     image::{MOST_PER_SIDE, MOST_TEXELS},
+    limits::Excess,
     repair::Place,
 };
 
@@ -52,6 +53,9 @@ pub enum RegionError {
         /// Polar radius, metres.
         b_m: f64,
     },
+    /// The regions ask for more than [`Limits`](crate::Limits) allow.
+    #[error(transparent)]
+    Limit(#[from] Excess),
     /// So many edges lie on top of each other that finding their crossings would take unbounded
     /// time and memory.
     #[error("the boundaries are a tangle: too many of their {edges} edges lie across each other")]
