@@ -200,3 +200,27 @@ fn a_millimetre_all_round_the_globe_is_refused_by_its_vertices() {
         );
     }
 }
+
+#[test]
+fn edges_micrometres_beside_each_other_for_thousands_of_kilometres_count_as_crossings() {
+    // Each pair is bisected in vain for some milliseconds, and counted.
+    let lines = (0..30).map(|k| {
+        let aside_deg = f64::from(k) * 3e-11;
+        let ring = [
+            (0.0, 10.0 + aside_deg),
+            (70.0, 30.0 - aside_deg),
+            (35.0, -60.0),
+        ];
+        let ring = ring.map(|(x, y)| LonLat::new(x, y));
+        Region::ring(ring.to_vec(), EdgeKind::Geodesic)
+    });
+    let limits = Limits {
+        crossings: 20,
+        ..Limits::default()
+    };
+    let excess = Excess {
+        what: Quantity::Crossings,
+        most: 20,
+    };
+    assert_eq!(refused(&lines.collect::<Vec<_>>(), limits), excess);
+}

@@ -5,7 +5,7 @@
 use globefill::{FillMesh, Inside, LonLat, Region};
 use globefill_fuzz::{
     laws,
-    scene::{KINDS, Stage, options},
+    scene::{KINDS, Stage, is_clear_of_poles, options},
     source::Source,
 };
 use libfuzzer_sys::fuzz_target;
@@ -56,7 +56,9 @@ fuzz_target!(init: globefill_fuzz::on_this_thread(), |bytes: &[u8]| {
     globefill_fuzz::show(&options, &regions);
     if let Ok(mesh) = FillMesh::build(&regions, &options) {
         laws::check(&mesh, &options);
-        laws::check_covering(&mesh, stage.probes());
+        if is_clear_of_poles(&regions) {
+            laws::check_covering(&mesh, stage.probes());
+        }
     }
 });
 

@@ -118,7 +118,7 @@ pub fn check_covering(mesh: &FillMesh, probes: impl Iterator<Item = LonLat>) {
     }
     let locator = Locator::new(mesh);
     for probe in probes {
-        let point = mesh.ellipsoid.ecef(probe, 0.0);
+        let point = mesh.ellipsoid.ecef(probe.canonical(), 0.0);
         if is_near_boundary(mesh, point) {
             continue;
         }

@@ -1,6 +1,6 @@
 //! Bytes → regions full of degeneracies.
 
-use globefill::{EdgeKind, Ellipsoid, Inside, LonLat, MeshOptions, Polygon, Region, Ring, Zone};
+use globefill::{EdgeKind, Ellipsoid, Inside, Limits, LonLat, MeshOptions, Polygon, Region, Ring, Zone};
 
 use crate::source::Source;
 
@@ -156,14 +156,16 @@ pub fn options(source: &mut Source) -> MeshOptions {
         _ => Ellipsoid { a_m: 0.0, b_m: -1.0 },
     };
     let tolerance_m = source.of(&[5.0, 50.0, 1e4, 500.0, f64::INFINITY]);
-    MeshOptions { ellipsoid, tolerance_m }
+    // Two pieces that cover the globe are refused: meshing them takes as long as a thousand small ones.
+    let limits = Limits { mesh_vertices: 20_000, ..Limits::default() };
+    MeshOptions { ellipsoid, tolerance_m, limits }
 }
 
 pub fn region(source: &mut Source, stage: &Stage, ellipsoid: &Ellipsoid) -> Region {
     let kinds = source.byte();
     let mut region = Region {
         edges: KINDS[usize::from(kinds & 3) % 3],
-        inside: if kinds & 4 == 0 { Inside::Smaller } else { Inside::LeftOfRing },
+        inside: if kinds & 0x44 == 0x44 { Inside::LeftOfRing } else { Inside::Smaller },
         ..Region::default()
     };
     for _ in 0..1 + (kinds >> 3) % 3 {
@@ -174,4 +176,15 @@ pub fn region(source: &mut Source, stage: &Stage, ellipsoid: &Ellipsoid) -> Regi
         }
     }
     region
+}
+
+/// Whether points may be held against each other's answers. Within some hundred micrometres of a pole
+/// curved edges that lie nanometres apart are not told apart, and where one of them decides on which
+/// side the pole lies, the locator may answer for the other side everywhere.
+pub fn is_clear_of_poles(regions: &[Region]) -> bool {
+    let is_clear = |vertex: &LonLat| vertex.lat_deg.abs() < 89.999 || vertex.is_pole();
+    regions.iter().filter(|region| region.edges != EdgeKind::Straight).all(|region| {
+        let polygons = region.polygons.iter();
+        polygons.flat_map(|polygon| polygon.holes.iter().chain([&polygon.shell])).flatten().all(is_clear)
+    })
 }

@@ -39,6 +39,10 @@ const MAX_ROUNDS: usize = 8;
 /// meets every other at every crossing.
 const MOST_VISITS: usize = 100_000_000;
 
+/// Pairs of curved edges left unclear, and one more for every forty edges, before the input counts as
+/// a tangle: each takes some ten milliseconds to give up.
+const MOST_UNCLEAR: usize = 2_000;
+
 /// Pairs of polygons (smaller first) whose boundaries cross.
 pub(crate) type PolygonPairs = FxHashSet<(u32, u32)>;
 
@@ -194,12 +198,16 @@ fn find_meetings(
         .take(trace_count)
         .collect();
     let most = limits.most(Quantity::Crossings);
+    let most_unclear = MOST_UNCLEAR + edges.len() / 40;
+    let unclear = AtomicUsize::new(0);
     let met = AtomicUsize::new(met);
     let found = EdgeGrid::new(&edges)
         .pairs(
             |index| candidates[index as usize] as usize >= first_fresh,
             |a, b, found| {
-                if met.load(Ordering::Relaxed) > most {
+                if met.load(Ordering::Relaxed) > most
+                    || unclear.load(Ordering::Relaxed) > most_unclear
+                {
                     return;
                 }
                 let (first, second) = (candidates[a as usize], candidates[b as usize]);
@@ -212,6 +220,9 @@ fn find_meetings(
                 };
                 meetings([&edges[a], &edges[b]], traced, |meeting| {
                     met.fetch_add(1, Ordering::Relaxed);
+                    if meeting == Meeting::Unclear {
+                        unclear.fetch_add(1, Ordering::Relaxed);
+                    }
                     found.push((first, second, meeting));
                 });
             },
@@ -219,6 +230,11 @@ fn find_meetings(
         .map_err(|_| RegionError::Tangled {
             edges: graph.edges.len(),
         })?;
+    if unclear.into_inner() > most_unclear {
+        return Err(RegionError::Tangled {
+            edges: graph.edges.len(),
+        });
+    }
     limits.check(Quantity::Crossings, met.into_inner())?;
     Ok(found)
 }

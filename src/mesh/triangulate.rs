@@ -68,7 +68,7 @@ pub(crate) fn triangulate(
     }
     let outline = Outline::new(ellipsoid, vertices, loops, inside_sr);
     if outline.points.len() < 3 {
-        return outline.without_triangles();
+        return outline.flat(Vec::new());
     }
     let (centre, radius_rad) = outline.bounding_cap();
     if loops.len() == 1
@@ -201,7 +201,7 @@ impl<'a> Outline<'a> {
 
     fn triangulate_in(&self, chart: Chart, winding_of_pole: i32) -> Caps {
         let Some(mut constrained) = Constrained::new(chart, winding_of_pole, self) else {
-            return self.caps(self.fans(), Vec::new());
+            return self.flat(self.fans());
         };
         refine(&mut constrained);
         let triangles = constrained.triangles(self.points.len());
@@ -217,9 +217,17 @@ impl<'a> Outline<'a> {
         self.ranges.iter().flat_map(fan).collect()
     }
 
-    /// Boundary chords alone bound the sag where nothing is to be filled.
-    fn without_triangles(&self) -> Caps {
-        self.caps(Vec::new(), Vec::new())
+    /// The caps of loops that enclose nothing, or everything but nothing: then the whole ellipsoid is
+    /// added, which has no boundary.
+    fn flat(&self, triangles: Vec<[u32; 3]>) -> Caps {
+        let mut caps = self.caps(triangles, Vec::new());
+        if self.inside_sr > TAU {
+            let globe = globe(self.ellipsoid, self.first_interior);
+            caps.triangles.extend(globe.triangles);
+            caps.interior = globe.interior;
+            caps.sag_m = caps.sag_m.max(globe.sag_m);
+        }
+        caps
     }
 
     /// Turns triangles of points, and of `interior` points after them, into triangles of the shared array.

@@ -1,8 +1,10 @@
 //! Degeneracies that fuzzing found, one test each.
 
-use globefill::{EdgeKind, Ellipsoid, FillMesh, Locator, LonLat, MeshOptions, Region, RegionError};
+use globefill::{
+    EdgeKind, Ellipsoid, FillMesh, Inside, Locator, LonLat, MeshOptions, Region, RegionError,
+};
 
-use crate::law::{KINDS, build, smaller};
+use crate::law::{KINDS, build, region, smaller};
 
 #[test]
 fn ellipsoids_whose_products_of_lengths_vanish_are_refused() {
@@ -101,6 +103,78 @@ fn a_vertex_within_rounding_of_a_long_straight_edge_does_not_fill_the_globe() {
                 LonLat::new(-100.0, 1.0),
             ] {
                 assert!(!locator.contains(0, elsewhere), "{k}");
+            }
+        }
+    }
+}
+
+/// How often triangles cover a surface point, seen from the centre, signed.
+fn covering(mesh: &FillMesh, position: LonLat) -> i32 {
+    let point = mesh.ellipsoid.ecef(position, 0.0);
+    let covers = |corners: &[u32; 3]| {
+        let corners = corners.map(|corner| mesh.vertices[corner as usize]);
+        if corners.iter().any(|corner| corner.dot(point) <= 0.0) {
+            return 0;
+        }
+        let [a, b, c] = corners.map(|corner| corner - point);
+        match [(a, b), (b, c), (c, a)].map(|(p, q)| p.cross(q).dot(point) > 0.0) {
+            [true, true, true] => 1,
+            [false, false, false] => -1,
+            _ => 0,
+        }
+    };
+    mesh.cap_triangles.iter().map(covers).sum()
+}
+
+/// The region to the left of a ring, which holds all but a sliver.
+fn check_all_but(ring: &[(f64, f64)], kind: EdgeKind) {
+    let region = region(kind, Inside::LeftOfRing, &[ring]);
+    let mesh = build(&[region]);
+    let locator = Locator::new(&mesh);
+    for elsewhere in [(20.3, 10.1), (-100.7, 80.2), (3.1, -70.3), (179.1, 0.7)] {
+        let elsewhere = LonLat::new(elsewhere.0, elsewhere.1);
+        assert!(locator.contains(0, elsewhere));
+        assert_eq!(covering(&mesh, elsewhere), 1, "{elsewhere:?}");
+    }
+    assert!(mesh.area_m2(0) > 5.1e14);
+}
+
+#[test]
+fn everything_but_a_sliver_is_drawn() {
+    for kind in KINDS {
+        // 1.4 mm long and a hundredth of that wide; then 3 km and 8 m.
+        check_all_but(&[(-8e-9, -8e-9), (5e-9, -8e-9), (4.9e-9, -8.11e-9)], kind);
+        check_all_but(&[(8.0, 50.0), (8.02, 50.02), (8.0201, 50.02)], kind);
+    }
+}
+
+#[test]
+fn everything_but_a_sliver_whose_sides_are_one_chord_is_drawn() {
+    let sliver = [(-8e-5, -90.0), (-8e-5, -89.999_96), (3e-5, -90.0)];
+    check_all_but(&sliver, EdgeKind::Straight);
+}
+
+#[test]
+fn slivers_at_a_pole_are_not_turned_inside_out() {
+    for pole_deg in [-90.0, 90.0] {
+        for west_deg in [-0.4, 90.3, 179.6] {
+            let beside = pole_deg - 1e-9_f64.copysign(pole_deg);
+            let ring = [
+                (west_deg, beside),
+                (west_deg + 0.8, beside),
+                (0.0, pole_deg),
+            ];
+            for kind in [EdgeKind::Geodesic, EdgeKind::Rhumb] {
+                let mesh = FillMesh::build(&[smaller(kind, &[&ring])], &MeshOptions::default());
+                let locator = Locator::new(&mesh.unwrap());
+                for elsewhere in [
+                    (west_deg + 0.3, 0.99 * pole_deg),
+                    (20.0, 0.0),
+                    (-20.0, -pole_deg),
+                ] {
+                    let elsewhere = LonLat::new(elsewhere.0, elsewhere.1);
+                    assert!(!locator.contains(0, elsewhere), "{kind:?} {elsewhere:?}");
+                }
             }
         }
     }
