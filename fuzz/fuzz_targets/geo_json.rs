@@ -38,7 +38,10 @@ fn is_narrow(regions: &[Region]) -> bool {
     polygons
         .flat_map(|polygon| polygon.holes.iter().chain([&polygon.shell]))
         .all(|ring| {
-            let spans = [ring.iter().map(|v| v.lon_deg).collect::<Vec<_>>(), ring.iter().map(|v| v.lat_deg).collect()];
+            let spans = [
+                ring.iter().map(|v| v.lon_deg).collect::<Vec<_>>(),
+                ring.iter().map(|v| v.lat_deg).collect(),
+            ];
             spans.iter().all(|span| {
                 let low = span.iter().copied().fold(f64::INFINITY, f64::min);
                 let high = span.iter().copied().fold(f64::NEG_INFINITY, f64::max);

@@ -10,7 +10,10 @@ fuzz_target!(|bytes: &[u8]| {
         Ok(image) => assert!(image.width() > 0 && image.height() > 0),
         Err(error) => {
             let message = error.to_string();
-            assert!(!message.contains('\n') && message.len() < 1000, "{message:?}");
+            assert!(
+                !message.contains('\n') && message.len() < 1000,
+                "{message:?}"
+            );
         }
     }
 });

@@ -17,7 +17,10 @@ fn check_vertices(mesh: &FillMesh, options: &MeshOptions) {
     let radii_m = mesh.ellipsoid.radii_m();
     for &position in &mesh.vertices {
         let length = (position / radii_m).length();
-        assert!((length - 1.0).abs() < 1e-14, "{position} is not on the ellipsoid: {length}");
+        assert!(
+            (length - 1.0).abs() < 1e-14,
+            "{position} is not on the ellipsoid: {length}"
+        );
     }
     assert!(mesh.sag_m.is_finite() && mesh.sag_m >= 0.0);
     let most_m = options.tolerance_m.max(1e-3) * 1.000_1;
@@ -67,11 +70,19 @@ fn check_order(mesh: &FillMesh) {
 /// The signed boundary of a piece's triangles is its arcs, bit for bit.
 fn check_closed(mesh: &FillMesh) {
     type Walk = (u32, [u64; 3], [u64; 3], i32);
-    let key = |vertex: u32| mesh.vertices[vertex as usize].to_array().map(|x| (x + 0.0).to_bits());
+    let key = |vertex: u32| {
+        mesh.vertices[vertex as usize]
+            .to_array()
+            .map(|x| (x + 0.0).to_bits())
+    };
     let mut walks: Vec<Walk> = Vec::new();
     let mut walk = |piece: u32, from: u32, to: u32, times: i32| {
         let (from, to) = (key(from), key(to));
-        walks.push(if from < to { (piece, from, to, times) } else { (piece, to, from, -times) });
+        walks.push(if from < to {
+            (piece, from, to, times)
+        } else {
+            (piece, to, from, -times)
+        });
     };
     for arc in &mesh.arcs {
         for (side, times) in [(arc.left, -1), (arc.right, 1)] {
@@ -92,7 +103,11 @@ fn check_closed(mesh: &FillMesh) {
     walks.sort_unstable();
     for same in walks.chunk_by(|a, b| (a.0, a.1, a.2) == (b.0, b.1, b.2)) {
         let times: i32 = same.iter().map(|walk| walk.3).sum();
-        assert!(times == 0 || same[0].1 == same[0].2, "piece {} is open", same[0].0);
+        assert!(
+            times == 0 || same[0].1 == same[0].2,
+            "piece {} is open",
+            same[0].0
+        );
     }
 }
 
@@ -129,18 +144,30 @@ pub fn check_covering(mesh: &FillMesh, probes: impl Iterator<Item = LonLat>) {
         for (index, piece) in (0..).zip(&mesh.pieces) {
             let first = piece.first_triangle as usize;
             let triangles = &mesh.cap_triangles[first..first + piece.triangle_count as usize];
-            let times: i32 = triangles.iter().map(|&corners| covers(mesh, corners, point)).sum();
-            assert!((0..=1).contains(&times), "piece {index} covers {probe:?} {times} times");
+            let times: i32 = triangles
+                .iter()
+                .map(|&corners| covers(mesh, corners, point))
+                .sum();
+            assert!(
+                (0..=1).contains(&times),
+                "piece {index} covers {probe:?} {times} times"
+            );
             if times == 1 {
                 covering.push(index);
             }
         }
-        let mut drawn: Vec<u32> = covering.iter().map(|&piece| mesh.pieces[piece as usize].fill).collect();
+        let mut drawn: Vec<u32> = covering
+            .iter()
+            .map(|&piece| mesh.pieces[piece as usize].fill)
+            .collect();
         drawn.dedup();
         assert_eq!(drawn, fills, "at {probe:?}");
         for (index, &a) in covering.iter().enumerate() {
             for &b in &covering[index + 1..] {
-                assert!(mesh.overlaps.binary_search(&(a, b)).is_ok(), "{a} and {b} at {probe:?}");
+                assert!(
+                    mesh.overlaps.binary_search(&(a, b)).is_ok(),
+                    "{a} and {b} at {probe:?}"
+                );
             }
         }
     }
@@ -168,7 +195,9 @@ pub fn is_near_boundary(mesh: &FillMesh, point: DVec3) -> bool {
         (first..first + arc.vertex_count as usize - 1).any(|index| {
             let (start, end) = (mesh.vertices[index], mesh.vertices[index + 1]);
             let chord = end - start;
-            let across = chord.cross(ellipsoid.normal_at_surface(start + end)).normalize();
+            let across = chord
+                .cross(ellipsoid.normal_at_surface(start + end))
+                .normalize();
             let sag_m = chord.length_squared() / (8.0 * ellipsoid.b_m);
             let margin_m = 2.0 * f64::from(mesh.boundary[index].deviation_m)
                 + 4.0 * ellipsoid.flattening().abs() * sag_m
@@ -194,7 +223,11 @@ pub fn check_plane(mesh: &FillMesh, ring: &Ring, probes: impl Iterator<Item = Lo
                 [a, b].map(|v| (v.lon_deg - probe.lon_deg, v.lat_deg - probe.lat_deg));
             let (ux, uy) = (bx - ax, by - ay);
             let length = ux.hypot(uy);
-            let share = if length > 0.0 { (-(ax * ux + ay * uy) / (length * length)).clamp(0.0, 1.0) } else { 0.0 };
+            let share = if length > 0.0 {
+                (-(ax * ux + ay * uy) / (length * length)).clamp(0.0, 1.0)
+            } else {
+                0.0
+            };
             near |= (ax + share * ux).hypot(ay + share * uy) < MARGIN_DEG;
             if (ay > 0.0) != (by > 0.0) && ax - ay * ux / uy > 0.0 {
                 inside = !inside;
@@ -213,7 +246,10 @@ pub fn check_answers(mesh: &FillMesh) {
         let measures = mesh.measures(fill);
         let pieces = f64::from(mesh.fills[fill as usize].piece_count);
         let least_m2 = -1e-9 * whole_m2;
-        assert!((least_m2..=whole_m2 * (pieces + 1e-9)).contains(&measures.area_m2), "{measures:?}");
+        assert!(
+            (least_m2..=whole_m2 * (pieces + 1e-9)).contains(&measures.area_m2),
+            "{measures:?}"
+        );
         assert!(measures.centroid().is_none_or(LonLat::is_valid));
         if let Some(cap) = mesh.bounding_cap(fill) {
             assert!((0.0..=4.0).contains(&cap.radius_rad), "{}", cap.radius_rad);
@@ -221,7 +257,10 @@ pub fn check_answers(mesh: &FillMesh) {
         if let Some(extents) = mesh.extents(fill) {
             assert!(extents.west_deg < extents.east_deg, "{extents:?}");
             assert!(extents.south_deg <= extents.north_deg, "{extents:?}");
-            assert!(extents.south_deg >= -90.0 && extents.north_deg <= 90.0, "{extents:?}");
+            assert!(
+                extents.south_deg >= -90.0 && extents.north_deg <= 90.0,
+                "{extents:?}"
+            );
         }
     }
 }

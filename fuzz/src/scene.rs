@@ -1,6 +1,8 @@
 //! Bytes → regions full of degeneracies.
 
-use globefill::{EdgeKind, Ellipsoid, Inside, Limits, LonLat, MeshOptions, Polygon, Region, Ring, Zone};
+use globefill::{
+    EdgeKind, Ellipsoid, Inside, Limits, LonLat, MeshOptions, Polygon, Region, Ring, Zone,
+};
 
 use crate::source::Source;
 
@@ -10,16 +12,58 @@ pub const KINDS: [EdgeKind; 3] = [EdgeKind::Geodesic, EdgeKind::Rhumb, EdgeKind:
 const STEP_DEG: f64 = 1.0 / (1_u64 << 36) as f64;
 
 const LONGITUDES_DEG: [f64; 16] = [
-    0.0, -0.0, 180.0, -180.0, 179.999_999_999, -180.000_000_000_000_03, 90.0, -90.0, 360.0, 540.0,
-    -720.0, 1e9, 45.0, 120.0, -60.0, 1e-300,
+    0.0,
+    -0.0,
+    180.0,
+    -180.0,
+    179.999_999_999,
+    -180.000_000_000_000_03,
+    90.0,
+    -90.0,
+    360.0,
+    540.0,
+    -720.0,
+    1e9,
+    45.0,
+    120.0,
+    -60.0,
+    1e-300,
 ];
 const LATITUDES_DEG: [f64; 16] = [
-    0.0, -0.0, 90.0, -90.0, 89.999_999_999, -89.999_999_999, 45.0, -45.0, 1e-12, -1e-12, 60.0,
-    85.0, -60.0, 30.0, -30.0, 89.0,
+    0.0,
+    -0.0,
+    90.0,
+    -90.0,
+    89.999_999_999,
+    -89.999_999_999,
+    45.0,
+    -45.0,
+    1e-12,
+    -1e-12,
+    60.0,
+    85.0,
+    -60.0,
+    30.0,
+    -30.0,
+    89.0,
 ];
 const SCALES_DEG: [f64; 16] = [
-    1e-3, STEP_DEG, 3.0 * STEP_DEG, 1e-9, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.02, 0.05, 0.1, 0.3,
-    5.0, 11.25,
+    1e-3,
+    STEP_DEG,
+    3.0 * STEP_DEG,
+    1e-9,
+    1e-7,
+    1e-6,
+    1e-5,
+    1e-4,
+    1e-3,
+    1e-2,
+    0.02,
+    0.05,
+    0.1,
+    0.3,
+    5.0,
+    11.25,
 ];
 
 /// Where a scene lies, and how large a step of its grid is.
@@ -48,7 +92,10 @@ impl Stage {
     /// A point of the plane, in steps from the centre; latitudes end at the poles.
     pub fn at(&self, x: f64, y: f64) -> LonLat {
         let lat_deg = self.centre.lat_deg + y * self.scale_deg;
-        LonLat::new(self.centre.lon_deg + x * self.scale_deg, lat_deg.clamp(-90.0, 90.0))
+        LonLat::new(
+            self.centre.lon_deg + x * self.scale_deg,
+            lat_deg.clamp(-90.0, 90.0),
+        )
     }
 
     /// Points between those of the grid.
@@ -117,7 +164,9 @@ impl Stage {
         let holes = source.below(most_holes + 1);
         Polygon {
             shell: self.ring(source, most_vertices),
-            holes: (0..holes).map(|_| self.ring(source, most_vertices.min(6))).collect(),
+            holes: (0..holes)
+                .map(|_| self.ring(source, most_vertices.min(6)))
+                .collect(),
         }
     }
 
@@ -146,26 +195,49 @@ pub fn options(source: &mut Source) -> MeshOptions {
         0..200 => Ellipsoid::WGS84,
         200..215 => Ellipsoid::MOON,
         215..230 => Ellipsoid::MARS,
-        230..235 => Ellipsoid { a_m: 6e6, b_m: 6.119e6 },
-        235..240 => Ellipsoid { a_m: 6e6, b_m: 5.881e6 },
+        230..235 => Ellipsoid {
+            a_m: 6e6,
+            b_m: 6.119e6,
+        },
+        235..240 => Ellipsoid {
+            a_m: 6e6,
+            b_m: 5.881e6,
+        },
         240..245 => Ellipsoid::sphere(1.0),
         245..248 => Ellipsoid::sphere(1e-6),
         248..250 => Ellipsoid::sphere(1e-200),
         250..252 => Ellipsoid::sphere(f64::MIN_POSITIVE),
-        252..254 => Ellipsoid { a_m: 7e6, b_m: f64::NAN },
-        _ => Ellipsoid { a_m: 0.0, b_m: -1.0 },
+        252..254 => Ellipsoid {
+            a_m: 7e6,
+            b_m: f64::NAN,
+        },
+        _ => Ellipsoid {
+            a_m: 0.0,
+            b_m: -1.0,
+        },
     };
     let tolerance_m = source.of(&[5.0, 50.0, 1e4, 500.0, f64::INFINITY]);
     // Two pieces that cover the globe are refused: meshing them takes as long as a thousand small ones.
-    let limits = Limits { mesh_vertices: 20_000, ..Limits::default() };
-    MeshOptions { ellipsoid, tolerance_m, limits }
+    let limits = Limits {
+        mesh_vertices: 20_000,
+        ..Limits::default()
+    };
+    MeshOptions {
+        ellipsoid,
+        tolerance_m,
+        limits,
+    }
 }
 
 pub fn region(source: &mut Source, stage: &Stage, ellipsoid: &Ellipsoid) -> Region {
     let kinds = source.byte();
     let mut region = Region {
         edges: KINDS[usize::from(kinds & 3) % 3],
-        inside: if kinds & 0x44 == 0x44 { Inside::LeftOfRing } else { Inside::Smaller },
+        inside: if kinds & 0x44 == 0x44 {
+            Inside::LeftOfRing
+        } else {
+            Inside::Smaller
+        },
         ..Region::default()
     };
     for _ in 0..1 + (kinds >> 3) % 3 {
@@ -183,8 +255,14 @@ pub fn region(source: &mut Source, stage: &Stage, ellipsoid: &Ellipsoid) -> Regi
 /// side the pole lies, the locator may answer for the other side everywhere.
 pub fn is_clear_of_poles(regions: &[Region]) -> bool {
     let is_clear = |vertex: &LonLat| vertex.lat_deg.abs() < 89.999 || vertex.is_pole();
-    regions.iter().filter(|region| region.edges != EdgeKind::Straight).all(|region| {
-        let polygons = region.polygons.iter();
-        polygons.flat_map(|polygon| polygon.holes.iter().chain([&polygon.shell])).flatten().all(is_clear)
-    })
+    regions
+        .iter()
+        .filter(|region| region.edges != EdgeKind::Straight)
+        .all(|region| {
+            let polygons = region.polygons.iter();
+            polygons
+                .flat_map(|polygon| polygon.holes.iter().chain([&polygon.shell]))
+                .flatten()
+                .all(is_clear)
+        })
 }
