@@ -83,26 +83,24 @@ fn slivers_below_a_square_millimetre_are_not_turned_inside_out() {
 }
 
 #[test]
-fn a_vertex_within_rounding_of_a_long_straight_edge_does_not_fill_the_globe() {
-    for k in 1..40 {
-        let (a, b) = (
-            LonLat::new(-3.0, 7.0),
-            LonLat::new(70.0 + f64::from(k), 33.3),
-        );
-        let share = f64::from(k) / 41.0;
-        let on_edge = LonLat::new(
-            a.lon_deg + share * (b.lon_deg - a.lon_deg),
-            a.lat_deg + share * (b.lat_deg - a.lat_deg),
-        );
-        for ring in [vec![a, b, on_edge], vec![on_edge, b, a]] {
-            let mesh = build(&[Region::ring(ring, EdgeKind::Straight)]);
+fn straight_triangles_of_half_a_square_step_of_the_lattice_do_not_fill_the_globe() {
+    // Neighbours in Fibonacci's sequence: thousands of kilometres long, and no wider than an atom.
+    let mut numbers = (1_u64, 1_u64);
+    while numbers.1 < 1 << 40 {
+        numbers = (numbers.1, numbers.0 + numbers.1);
+    }
+    let (small, middle, large) = (numbers.1 - numbers.0, numbers.0, numbers.1);
+    let deg = |steps: u64| steps as f64 / (1_u64 << 36) as f64;
+    for k in 0..40 {
+        let (west_deg, south_deg) = (f64::from(k) * 7.0 - 170.0, f64::from(k % 20) * 3.0 - 40.0);
+        let at = |x, y| LonLat::new(west_deg + deg(x), south_deg + deg(y));
+        let [a, b, c] = [at(0, 0), at(middle, small), at(large, middle)];
+        for ring in [[a, b, c], [c, b, a]] {
+            let mesh = build(&[Region::ring(ring.to_vec(), EdgeKind::Straight)]);
             let locator = Locator::new(&mesh);
-            for elsewhere in [
-                LonLat::new(0.0, 90.0),
-                LonLat::new(0.0, -90.0),
-                LonLat::new(-100.0, 1.0),
-            ] {
-                assert!(!locator.contains(0, elsewhere), "{k}");
+            for elsewhere in [(0.0, 90.0), (0.0, -90.0), (175.0, 1.0)] {
+                let elsewhere = LonLat::new(elsewhere.0, elsewhere.1);
+                assert!(!locator.contains(0, elsewhere), "{k} {elsewhere:?}");
             }
         }
     }
