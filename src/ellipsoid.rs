@@ -41,12 +41,13 @@ impl Ellipsoid {
         }
     }
 
-    /// Whether fills can be meshed and drawn on it: radii up to 6 700 km, flattening up to 1/50.
+    /// Whether fills can be meshed and drawn on it: radii from 1 m (products of several lengths on
+    /// far smaller ones vanish in double precision) to 6 700 km, flattening up to 1/50.
     pub(crate) fn is_supported(&self) -> bool {
         let radii = [self.a_m, self.b_m];
         radii
             .iter()
-            .all(|&radius_m| radius_m > 0.0 && radius_m <= 6.7e6)
+            .all(|&radius_m| (1.0..=6.7e6).contains(&radius_m))
             && self.flattening().abs() <= 0.02
     }
 

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use crate::{
     image::{MOST_PER_SIDE, MOST_TEXELS},
+    limits::Excess,
     repair::Place,
 };
 
@@ -43,8 +44,8 @@ pub enum RegionError {
         /// What is wrong with it.
         error: ZoneError,
     },
-    /// The ellipsoid's radii are not finite and positive, larger than positions can be encoded for
-    /// (6 700 km), or its flattening is beyond 1/50, up to which the error bounds are proven.
+    /// The ellipsoid's radii are not numbers from 1 m to 6 700 km, up to which positions can be
+    /// encoded, or its flattening is beyond 1/50, up to which the error bounds are proven.
     #[error("no fills on an ellipsoid with radii of {a_m} m and {b_m} m")]
     InvalidEllipsoid {
         /// Equatorial radius, metres.
@@ -52,6 +53,9 @@ pub enum RegionError {
         /// Polar radius, metres.
         b_m: f64,
     },
+    /// The regions ask for more than [`Limits`](crate::Limits) allow.
+    #[error(transparent)]
+    Limit(#[from] Excess),
     /// So many edges lie on top of each other that finding their crossings would take unbounded
     /// time and memory.
     #[error("the boundaries are a tangle: too many of their {edges} edges lie across each other")]

@@ -6,8 +6,8 @@ mod measures;
 use glam::DVec3;
 
 use crate::{
-    curve::Curve, ellipsoid::Ellipsoid, error::RegionError, mesh::mesh_build, region::Region,
-    repair::Repair,
+    curve::Curve, ellipsoid::Ellipsoid, error::RegionError, limits::Limits, mesh::mesh_build,
+    region::Region, repair::Repair,
 };
 
 /// How regions are meshed.
@@ -19,6 +19,8 @@ pub struct MeshOptions {
     /// edges near the eye far below this; smaller values only cost memory, and none
     /// below 1 mm is met.
     pub tolerance_m: f64,
+    /// How much the regions may ask for.
+    pub limits: Limits,
 }
 
 impl Default for MeshOptions {
@@ -26,6 +28,7 @@ impl Default for MeshOptions {
         Self {
             ellipsoid: Ellipsoid::WGS84,
             tolerance_m: 5.0,
+            limits: Limits::default(),
         }
     }
 }
@@ -148,7 +151,8 @@ impl FillMesh {
     /// half of the lon/lat plane (the box from −180° to 180° and −90° to 90°), else nothing.
     ///
     /// # Errors
-    /// The first vertex, ring or edge that means nothing on a globe, by its place in the input.
+    /// The first vertex, ring or edge that means nothing on a globe, by its place in the input; the
+    /// first of [`MeshOptions::limits`] that is exceeded.
     pub fn build(regions: &[Region], options: &MeshOptions) -> Result<Self, RegionError> {
         mesh_build::build(regions, options)
     }

@@ -4,6 +4,7 @@ use geojson::{Feature, GeoJson, Geometry, GeometryValue, Position, feature::Id};
 
 use crate::{
     geodetic::LonLat,
+    limits::{Excess, Limits, Quantity},
     region::{EdgeKind, Inside, Polygon, Region, Ring},
     repair::Place,
 };
@@ -13,6 +14,7 @@ mod location;
 /// Properties and their values, as `serde_json` has them.
 pub use geojson::{JsonObject, JsonValue};
 pub use location::Location;
+use location::end_of_string;
 
 /// The members of a feature's properties that may hold its name, in the order they are tried: the
 /// common one, then those of Natural Earth's files.
@@ -56,6 +58,9 @@ pub enum GeoJsonError {
         /// What the parser says.
         message: String,
     },
+    /// The text asks for more than [`Limits`] allow.
+    #[error(transparent)]
+    Limit(#[from] Excess),
     /// The feature's geometry is null or missing: it has no place on the globe.
     #[error("feature {feature}: the geometry is null or missing")]
     NoGeometry {
@@ -89,6 +94,18 @@ pub enum GeoJsonError {
 /// A FeatureCollection, a Feature or a bare geometry (one feature) of type Polygon, MultiPolygon or
 /// GeometryCollection of these. The polygons of a collection are counted through.
 pub fn regions_from_geojson(text: &str) -> Result<Vec<NamedRegion>, GeoJsonError> {
+    regions_from_geojson_within(text, &Limits::default())
+}
+
+/// [`regions_from_geojson`] for texts up to other limits than the default:
+/// [`text_bytes`](Limits::text_bytes) and [`json_values`](Limits::json_values), which are checked before
+/// anything is read. (The others are [`FillMesh::build`](crate::FillMesh::build)'s.)
+pub fn regions_from_geojson_within(
+    text: &str,
+    limits: &Limits,
+) -> Result<Vec<NamedRegion>, GeoJsonError> {
+    limits.check(Quantity::TextBytes, text.len())?;
+    check_values(text, limits)?;
     // RFC 8259 §8.1 allows a parser to ignore a byte order mark; editors on Windows write one.
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     match text.parse().map_err(|error| malformed(text, &error))? {
@@ -104,6 +121,29 @@ pub fn regions_from_geojson(text: &str) -> Result<Vec<NamedRegion>, GeoJsonError
             ..NamedRegion::default()
         }]),
     }
+}
+
+/// Counts values up to the limit, without reading them.
+fn check_values(text: &str, limits: &Limits) -> Result<(), Excess> {
+    let most = limits.most(Quantity::JsonValues);
+    // No text has more values than bytes.
+    if text.len() <= most {
+        return Ok(());
+    }
+    let bytes = text.as_bytes();
+    let (mut at, mut count) = (0, 0);
+    while let Some(&byte) = bytes.get(at) {
+        at += 1;
+        match byte {
+            b'"' => at = end_of_string(bytes, at),
+            b',' | b'[' | b'{' => {
+                count += 1;
+                limits.check(Quantity::JsonValues, count)?;
+            }
+            _ => {}
+        }
+    }
+    Ok(())
 }
 
 fn malformed(text: &str, error: &geojson::Error) -> GeoJsonError {

@@ -153,6 +153,7 @@ pub mod hatch;
 pub mod image;
 pub mod image_fill;
 pub mod length;
+pub mod limits;
 pub mod locator;
 pub mod options;
 pub mod outline;
@@ -198,6 +199,7 @@ pub use crate::{
     image::{Image, ImageId},
     image_fill::{ImageFill, Placement, Wrap},
     length::Length,
+    limits::{Excess, Limits, Quantity},
     locator::Locator,
     options::{Camera, CountTechnique, DepthConvention, Frame, HeightRange, RendererOptions},
     outline::{Cap, Measures, Outline, Stretch},

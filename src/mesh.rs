@@ -4,4 +4,5 @@ pub(crate) mod bounds;
 pub(crate) mod densify;
 pub(crate) mod mesh_build;
 pub(crate) mod triangulate;
+pub(crate) mod vertex_room;
 pub(crate) mod vertex_runs;

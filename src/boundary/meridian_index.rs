@@ -71,6 +71,11 @@ impl MeridianIndex {
         &self.entries[first as usize..self.ends[column] as usize]
     }
 
+    /// How many edges [`Self::separating`] looks at for a point.
+    pub(crate) fn passed(&self, point: LatticePoint) -> u64 {
+        (self.column_at(point.lon).len() + self.polar.len()) as u64
+    }
+
     /// Labels of the boundaries that separate `point` (not the north pole) from the neighbourhood of the
     /// north pole just beyond the meridian of 180°, sorted: those crossed an odd number of times
     /// on the way along the meridian and round the pole. `on_node` is called with the label of

@@ -1,6 +1,9 @@
 //! Noding: edges that meet inside get a common node there, or are listed as overlapping.
 
-use std::sync::OnceLock;
+use std::sync::{
+    OnceLock,
+    atomic::{AtomicUsize, Ordering},
+};
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -14,6 +17,7 @@ use crate::{
     curve::CurveKind,
     ellipsoid::Ellipsoid,
     error::RegionError,
+    limits::{Limits, Quantity},
     repair::{Place, Repair, RepairKind},
 };
 
@@ -31,6 +35,14 @@ pub(crate) struct PolygonWalk {
 /// round finds those of the round before. Real data needs two.
 const MAX_ROUNDS: usize = 8;
 
+/// Pairs of users looked at before the input counts as a tangle: where copies of polygons cross, each
+/// meets every other at every crossing.
+const MOST_VISITS: usize = 100_000_000;
+
+/// Pairs of curved edges left unclear, and one more for every forty edges, before the input counts as
+/// a tangle: each takes some ten milliseconds to give up.
+const MOST_UNCLEAR: usize = 2_000;
+
 /// Pairs of polygons (smaller first) whose boundaries cross.
 pub(crate) type PolygonPairs = FxHashSet<(u32, u32)>;
 
@@ -41,15 +53,16 @@ pub(crate) fn node_boundaries(
     graph: &mut BoundaryGraph,
     polygons: &mut [PolygonWalk],
     repairs: &mut Vec<Repair>,
+    limits: &Limits,
 ) -> Result<PolygonPairs, RegionError> {
     let mut crossing = PolygonPairs::default();
+    let mut met = 0;
+    let mut visits = 0;
     let mut first_fresh = 0;
     for _ in 0..MAX_ROUNDS {
         let users = EdgeUsers::new(graph.edges.len(), polygons);
-        let found =
-            find_meetings(ellipsoid, graph, &users, first_fresh).ok_or(RegionError::Tangled {
-                edges: graph.edges.len(),
-            })?;
+        let found = find_meetings(ellipsoid, graph, &users, first_fresh, limits, met)?;
+        met += found.len();
         let mut splits = Splits::default();
         for (first, second, meeting) in found {
             match meeting {
@@ -68,9 +81,14 @@ pub(crate) fn node_boundaries(
                         splits.add(first, point);
                         splits.add(second, point);
                     }
-                    None => users.add_pairs(first, second, &mut crossing),
+                    None => visits += users.add_pairs(first, second, &mut crossing),
                 },
-                Meeting::Unclear => users.add_pairs(first, second, &mut crossing),
+                Meeting::Unclear => visits += users.add_pairs(first, second, &mut crossing),
+            }
+            if visits > MOST_VISITS {
+                return Err(RegionError::Tangled {
+                    edges: graph.edges.len(),
+                });
             }
         }
         if splits.points.is_empty() {
@@ -137,13 +155,14 @@ impl EdgeUsers {
 
     /// A polygon that walks both edges.
     fn common(&self, first: u32, second: u32) -> Option<u32> {
-        self.of(first)
-            .iter()
-            .copied()
-            .find(|polygon| self.of(second).contains(polygon))
+        // Users are in the order of polygons.
+        let others = self.of(second);
+        let walks_second = |polygon: &u32| others.binary_search(polygon).is_ok();
+        self.of(first).iter().copied().find(walks_second)
     }
 
-    fn add_pairs(&self, first: u32, second: u32, pairs: &mut PolygonPairs) {
+    /// Adds the pairs of polygons that walk the edges; answers how many it looked at.
+    fn add_pairs(&self, first: u32, second: u32, pairs: &mut PolygonPairs) -> usize {
         for &a in self.of(first) {
             for &b in self.of(second) {
                 if a != b {
@@ -151,19 +170,22 @@ impl EdgeUsers {
                 }
             }
         }
+        self.of(first).len() * self.of(second).len()
     }
 }
 
 type Found = (u32, u32, Meeting);
 
-/// All meetings of walked edges of which one at least is numbered `first_fresh` or more; none if
-/// there are too many pairs to look at.
+/// All meetings of walked edges of which one at least is numbered `first_fresh` or more, after `met`
+/// others. Fails if there are too many pairs to look at, or too many meet.
 fn find_meetings(
     ellipsoid: &Ellipsoid,
     graph: &BoundaryGraph,
     users: &EdgeUsers,
     first_fresh: usize,
-) -> Option<Vec<Found>> {
+    limits: &Limits,
+    met: usize,
+) -> Result<Vec<Found>, RegionError> {
     let candidates = candidates(graph, users, first_fresh);
     let edges: Vec<Edge> = candidates
         .iter()
@@ -175,10 +197,19 @@ fn find_meetings(
     let traces: Vec<OnceLock<Box<Traced>>> = std::iter::repeat_with(OnceLock::new)
         .take(trace_count)
         .collect();
-    EdgeGrid::new(&edges)
+    let most = limits.most(Quantity::Crossings);
+    let most_unclear = MOST_UNCLEAR + edges.len() / 40;
+    let unclear = AtomicUsize::new(0);
+    let met = AtomicUsize::new(met);
+    let found = EdgeGrid::new(&edges)
         .pairs(
             |index| candidates[index as usize] as usize >= first_fresh,
             |a, b, found| {
+                if met.load(Ordering::Relaxed) > most
+                    || unclear.load(Ordering::Relaxed) > most_unclear
+                {
+                    return;
+                }
                 let (first, second) = (candidates[a as usize], candidates[b as usize]);
                 let (a, b) = (a as usize, b as usize);
                 let traced = || {
@@ -188,11 +219,24 @@ fn find_meetings(
                     })
                 };
                 meetings([&edges[a], &edges[b]], traced, |meeting| {
+                    met.fetch_add(1, Ordering::Relaxed);
+                    if meeting == Meeting::Unclear {
+                        unclear.fetch_add(1, Ordering::Relaxed);
+                    }
                     found.push((first, second, meeting));
                 });
             },
         )
-        .ok()
+        .map_err(|_| RegionError::Tangled {
+            edges: graph.edges.len(),
+        })?;
+    if unclear.into_inner() > most_unclear {
+        return Err(RegionError::Tangled {
+            edges: graph.edges.len(),
+        });
+    }
+    limits.check(Quantity::Crossings, met.into_inner())?;
+    Ok(found)
 }
 
 /// Walked edges that are fresh or lie near fresh ones.

@@ -6,6 +6,8 @@
 //! there wholly, or leave a common node into a sector of it), or the one would lie in the other, and
 //! its loops with it.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -17,6 +19,7 @@ use crate::{
     boundary::meridian_index::MeridianIndex,
     ellipsoid::Ellipsoid,
     error::RegionError,
+    limits::{Limits, Quantity},
 };
 
 type Pair = (u32, u32);
@@ -24,6 +27,10 @@ type Pair = (u32, u32);
 /// Pairs looked at before the input counts as a tangle: a copied polygon meets every other copy at
 /// every edge.
 const MOST_VISITS: usize = 20_000_000;
+
+/// Edges passed on meridians before the input counts as a tangle: parts by the million on one meridian
+/// each have all others to the north.
+const MOST_PASSED: u64 = 10_000_000_000;
 
 /// Distinct pairs, and how often pairs were added.
 struct Pairs {
@@ -56,6 +63,7 @@ pub(crate) fn overlaps(
     sides: &EdgeSides,
     pieces: &[Boundary],
     crossing: Vec<Pair>,
+    limits: &Limits,
 ) -> Result<Vec<Pair>, RegionError> {
     let loops = pieces.iter().flat_map(|piece| &piece.loops);
     let mut pairs = Pairs {
@@ -65,7 +73,11 @@ pub(crate) fn overlaps(
     };
     add_same_side(sides, &mut pairs)?;
     add_common_sectors(ellipsoid, graph, sides, pieces, &mut pairs)?;
-    pairs.found.extend(contained(ellipsoid, graph, pieces));
+    let found = pairs.found.len();
+    pairs
+        .found
+        .extend(contained(ellipsoid, graph, pieces, limits, found)?);
+    limits.check(Quantity::Overlaps, pairs.found.len())?;
     let mut sorted: Vec<Pair> = pairs.found.into_iter().collect();
     sorted.sort_unstable();
     Ok(sorted)
@@ -137,8 +149,14 @@ fn add_common_sectors(
     Ok(())
 }
 
-/// Pieces that contain a vertex of a loop of another.
-fn contained(ellipsoid: &Ellipsoid, graph: &BoundaryGraph, pieces: &[Boundary]) -> Vec<Pair> {
+/// Pieces that contain a vertex of a loop of another, beside `found` pairs known before.
+fn contained(
+    ellipsoid: &Ellipsoid,
+    graph: &BoundaryGraph,
+    pieces: &[Boundary],
+    limits: &Limits,
+    found: usize,
+) -> Result<Vec<Pair>, RegionError> {
     let labelled = pieces.iter().enumerate().flat_map(|(piece, boundary)| {
         boundary
             .loops
@@ -147,6 +165,15 @@ fn contained(ellipsoid: &Ellipsoid, graph: &BoundaryGraph, pieces: &[Boundary]) 
             .map(move |&edge| (edge, piece as u32))
     });
     let index = MeridianIndex::new(graph, labelled);
+    let loops = || pieces.iter().flat_map(|piece| &piece.loops);
+    let starts = loops().map(|edges| point_on(graph, edges.iter().copied()));
+    if starts.map(|point| index.passed(point)).sum::<u64>() > MOST_PASSED {
+        return Err(RegionError::Tangled {
+            edges: loops().map(Vec::len).sum(),
+        });
+    }
+    let count = AtomicUsize::new(found);
+    let most = limits.most(Quantity::Overlaps);
     let has_pole = |piece: u32| {
         let boundary = &pieces[piece as usize];
         boundary.loops.is_empty() || boundary.enclosed.has_north_pole()
@@ -154,13 +181,15 @@ fn contained(ellipsoid: &Ellipsoid, graph: &BoundaryGraph, pieces: &[Boundary]) 
     let polar: Vec<u32> = (0..pieces.len() as u32)
         .filter(|&piece| has_pole(piece))
         .collect();
-    pieces
+    let pairs = pieces
         .par_iter()
         .enumerate()
         .flat_map_iter(|(own, boundary)| {
             let own = own as u32;
-            let (index, polar) = (&index, &polar);
-            boundary.loops.iter().flat_map(move |edges| {
+            let (index, polar, count) = (&index, &polar, &count);
+            let is_full = move || count.load(Ordering::Relaxed) > most;
+            let loops = boundary.loops.iter().take_while(move |_| !is_full());
+            loops.flat_map(move |edges| {
                 let mut void = vec![own];
                 let point = point_on(graph, edges.iter().copied());
                 let separating =
@@ -172,10 +201,12 @@ fn contained(ellipsoid: &Ellipsoid, graph: &BoundaryGraph, pieces: &[Boundary]) 
                 let containing = outside_pole
                     .chain(around_pole)
                     .filter(|other| !void.contains(other));
-                containing
-                    .map(|&other| pair(own, other))
-                    .collect::<Vec<_>>()
+                let pairs: Vec<Pair> = containing.map(|&other| pair(own, other)).collect();
+                count.fetch_add(pairs.len(), Ordering::Relaxed);
+                pairs
             })
         })
-        .collect()
+        .collect();
+    limits.check(Quantity::Overlaps, count.into_inner())?;
+    Ok(pairs)
 }

@@ -129,7 +129,7 @@ fn open_at_end(bytes: &[u8]) -> Vec<Open<'_>> {
 }
 
 /// The byte after the quote that ends the string whose first byte is at `at`, or the end.
-fn end_of_string(bytes: &[u8], mut at: usize) -> usize {
+pub(super) fn end_of_string(bytes: &[u8], mut at: usize) -> usize {
     while let Some(&byte) = bytes.get(at) {
         at += 1;
         match byte {

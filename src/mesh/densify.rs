@@ -8,6 +8,7 @@ use crate::{
     curve::{Curve, CurveOn},
     ellipsoid::Ellipsoid,
     fill_mesh::BoundaryVertex,
+    mesh::vertex_room::VertexRoom,
 };
 
 /// Longest chord, in equatorial radii: 2° of arc, which sags 970 m on Earth.
@@ -16,6 +17,9 @@ const MAX_CHORD: f64 = 2.0 / 180.0 * std::f64::consts::PI;
 const MIN_TOLERANCE_M: f64 = 1e-3;
 /// A curve is halved at most this often: then its pieces are metres long whatever the tolerance.
 const MAX_DEPTH: u32 = 24;
+
+/// So many vertices are made before room is taken for them.
+const BATCH: usize = 1024;
 
 /// The vertices of an arc.
 #[derive(Clone, Debug, Default)]
@@ -31,13 +35,15 @@ pub(crate) struct DenseChain {
     pub(crate) longest_chord_m: f64,
 }
 
-/// Puts points on a chain's true edges until no chord lies more than `tolerance_m` beside its edge.
+/// Puts points on a chain's true edges until no chord lies more than `tolerance_m` beside its edge, or
+/// until there is no `room`: then the answer means nothing.
 pub(crate) fn densify(
     ellipsoid: &Ellipsoid,
     graph: &BoundaryGraph,
     node_ecef_m: &[DVec3],
     chain: &Chain,
     tolerance_m: f64,
+    room: &VertexRoom,
 ) -> DenseChain {
     let tolerance_m = tolerance_m.max(MIN_TOLERANCE_M);
     let mut dense = DenseChain::default();
@@ -47,8 +53,12 @@ pub(crate) fn densify(
         let curve = graph.walk(edge).curve();
         let (start, end) = (ecef_m(graph.start_node(edge)), ecef_m(graph.end_node(edge)));
         dense.curves.push(curve);
-        dense.add_edge(&curve.on_between(ellipsoid, start, end), tolerance_m);
+        dense.add_edge(&curve.on_between(ellipsoid, start, end), tolerance_m, room);
+        if room.is_full() {
+            return DenseChain::default();
+        }
     }
+    room.take(dense.vertices.len() % BATCH);
     if let (Some(&last), Some(edge)) = (dense.boundary.last(), chain.edges.last()) {
         dense.vertices.push(ecef_m(graph.end_node(*edge)));
         dense.boundary.push(BoundaryVertex {
@@ -62,7 +72,7 @@ pub(crate) fn densify(
 
 impl DenseChain {
     /// Adds the vertices of the latest curve except its end.
-    fn add_edge(&mut self, curve: &CurveOn, tolerance_m: f64) {
+    fn add_edge(&mut self, curve: &CurveOn, tolerance_m: f64, room: &VertexRoom) {
         let index = self.curves.len() as u32 - 1;
         let max_chord_m = MAX_CHORD * curve.ellipsoid().a_m;
         // Intervals still to be drawn, the first on top.
@@ -82,6 +92,12 @@ impl DenseChain {
                 continue;
             }
             self.vertices.push(start);
+            if self.vertices.len().is_multiple_of(BATCH) {
+                room.take(BATCH);
+                if room.is_full() {
+                    return;
+                }
+            }
             self.boundary.push(BoundaryVertex {
                 curve: index,
                 // Rounded up, so that it stays a bound.

@@ -17,11 +17,14 @@ use crate::{
     error::RegionError,
     fill_mesh::{Arc, BoundaryVertex, Bounds, Fill, FillMesh, MeshOptions, Piece},
     geodetic::LonLat,
+    limits::{Excess, Limits, Quantity},
     mesh::densify::{DenseChain, densify},
     mesh::triangulate::{Caps, triangulate},
+    mesh::vertex_room::VertexRoom,
     mesh::vertex_runs::VertexRuns,
     region::{EdgeKind, Polygon, Region},
     repair::{Place, Repair, RepairKind},
+    zone::Zone,
 };
 
 /// Runs the whole pipeline.
@@ -37,9 +40,14 @@ pub(crate) fn build(regions: &[Region], options: &MeshOptions) -> Result<FillMes
             b_m: ellipsoid.b_m,
         });
     }
-    let mut graph = BoundaryGraph::with_capacity(count_vertices(regions));
+    let limits = &options.limits;
+    limits.check(Quantity::Rings, count_rings(regions))?;
+    let vertex_count = count_vertices(regions);
+    limits.check(Quantity::Vertices, vertex_count)?;
+    let mut graph = BoundaryGraph::with_capacity(vertex_count);
     let mut polygons = walk_polygons(regions, &ellipsoid, &mut graph, &mut mesh.repairs)?;
-    let crossing = node_boundaries(&ellipsoid, &mut graph, &mut polygons, &mut mesh.repairs)?;
+    let repairs = &mut mesh.repairs;
+    let crossing = node_boundaries(&ellipsoid, &mut graph, &mut polygons, repairs, limits)?;
     let boundaries = bound_polygons(regions, &ellipsoid, &graph, &polygons, &mut mesh.repairs)?;
     mesh.repairs.sort_by_key(|repair| {
         let Place {
@@ -55,24 +63,39 @@ pub(crate) fn build(regions: &[Region], options: &MeshOptions) -> Result<FillMes
     let pieces: Vec<Boundary> = boundaries.into_iter().flatten().collect();
     let sides = EdgeSides::new(&graph, &pieces);
     let crossing = crossing_pieces(crossing, &piece_of_polygon);
-    let (overlaps, ()) = rayon::join(
-        || overlaps(&ellipsoid, &graph, &sides, &pieces, crossing),
+    let (overlaps, added) = rayon::join(
+        || overlaps(&ellipsoid, &graph, &sides, &pieces, crossing, limits),
         || {
             let chains = chains(&graph, &sides, &pieces);
-            let vertex_runs = mesh.add_arcs(&graph, &chains, options.tolerance_m);
-            mesh.add_caps(&graph, &pieces, &vertex_runs);
+            let vertex_runs = mesh.add_arcs(&graph, &chains, options)?;
+            mesh.add_caps(&graph, &pieces, &vertex_runs, limits)
         },
     );
     mesh.overlaps = overlaps?;
+    added?;
     Ok(mesh)
 }
 
 fn count_vertices(regions: &[Region]) -> usize {
     let polygons = regions.iter().flat_map(|region| &region.polygons);
-    polygons
-        .flat_map(rings_of)
-        .map(|(_, ring)| ring.len())
-        .sum()
+    let of_rings = polygons.flat_map(rings_of).map(|(_, ring)| ring.len());
+    let of_zones = regions.iter().flat_map(|region| &region.zones);
+    let of_zones = of_zones.map(|zone| match zone {
+        Zone::Corridor { points, .. } => points.len(),
+        _ => 1,
+    });
+    of_rings.chain(of_zones).sum()
+}
+
+fn count_rings(regions: &[Region]) -> usize {
+    let of_region = |region: &Region| {
+        let of_polygons = region
+            .polygons
+            .iter()
+            .map(|polygon| 1 + polygon.holes.len());
+        region.zones.len() + of_polygons.sum::<usize>()
+    };
+    regions.iter().map(of_region).sum()
 }
 
 /// Shell and holes, numbered.
@@ -268,8 +291,8 @@ impl FillMesh {
         &mut self,
         graph: &BoundaryGraph,
         chains: &[Chain],
-        tolerance_m: f64,
-    ) -> VertexRuns {
+        options: &MeshOptions,
+    ) -> Result<VertexRuns, Excess> {
         let ellipsoid = self.ellipsoid;
         let node_ecef_m: Vec<DVec3> = graph
             .nodes
@@ -277,13 +300,16 @@ impl FillMesh {
             .with_min_len(256)
             .map(|point| ellipsoid.ecef(point.lon_lat(), 0.0))
             .collect();
+        let room = VertexRoom::new(options.limits);
+        let tolerance_m = options.tolerance_m;
         let dense: Vec<DenseChain> = chains
             .par_iter()
             .map(|chain| match chain.is_copy {
-                false => densify(&ellipsoid, graph, &node_ecef_m, chain, tolerance_m),
+                false => densify(&ellipsoid, graph, &node_ecef_m, chain, tolerance_m, &room),
                 true => DenseChain::default(),
             })
             .collect();
+        room.check()?;
         let mut runs = VertexRuns::new(graph);
         for (chain, dense) in chains
             .iter()
@@ -295,10 +321,12 @@ impl FillMesh {
         }
         for chain in chains.iter().filter(|chain| chain.is_copy) {
             let copy = self.copy_of(graph, chain, &runs);
+            room.take(copy.vertices.len());
+            room.check()?;
             self.add_arc(chain, &copy);
         }
         self.bound_arcs();
-        runs
+        Ok(runs)
     }
 
     fn add_arc(&mut self, chain: &Chain, dense: &DenseChain) {
@@ -380,19 +408,33 @@ impl FillMesh {
     }
 
     /// Adds the triangles of every piece and its interior vertices.
-    fn add_caps(&mut self, graph: &BoundaryGraph, pieces: &[Boundary], runs: &VertexRuns) {
+    fn add_caps(
+        &mut self,
+        graph: &BoundaryGraph,
+        pieces: &[Boundary],
+        runs: &VertexRuns,
+        limits: &Limits,
+    ) -> Result<(), Excess> {
         let ellipsoid = self.ellipsoid;
+        let authalic = Authalic::new(ellipsoid);
         let boundary_vertices = &self.vertices[..];
         let margin_m = self.arcs_margin_m();
+        let room = VertexRoom::new(*limits);
+        room.take(self.vertices.len());
         let caps: Vec<(Caps, Bounds)> = pieces
             .par_iter()
             .map(|piece| {
+                if room.is_full() {
+                    return Default::default();
+                }
                 let loops: Vec<Vec<u32>> = piece
                     .loops
                     .iter()
                     .map(|edges| runs.loop_vertices(graph, edges))
                     .collect();
-                let caps = triangulate(ellipsoid, boundary_vertices, &loops);
+                let inside_sr = authalic.left_share(piece.enclosed) * 4.0 * std::f64::consts::PI;
+                let caps = triangulate(ellipsoid, boundary_vertices, &loops, inside_sr);
+                room.take(caps.interior.len());
                 let bounds = if loops.is_empty() {
                     Bounds::globe()
                 } else {
@@ -406,6 +448,7 @@ impl FillMesh {
                 (caps, bounds)
             })
             .collect();
+        room.check()?;
         let boundary_count = self.vertices.len() as u32;
         for (piece, (caps, bounds)) in self.pieces.iter_mut().zip(caps) {
             piece.bounds = bounds;
@@ -424,6 +467,7 @@ impl FillMesh {
                 .extend(caps.triangles.iter().map(|corners| corners.map(place)));
             self.vertices.extend(caps.interior);
         }
+        Ok(())
     }
 
     /// [`edge_margin_m`] of all arcs together.

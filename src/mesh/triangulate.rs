@@ -20,6 +20,8 @@ mod sleeve;
 #[cfg(test)]
 mod tests;
 
+use std::f64::consts::TAU;
+
 use glam::DVec3;
 
 use crate::ellipsoid::Ellipsoid;
@@ -49,18 +51,24 @@ pub(crate) struct Caps {
 ///
 /// `loops` index `vertices` (ECEF metres at height 0) and do not repeat their first vertex. They
 /// bound one piece; no loops at all stand for the whole globe. New interior vertices get indices from
-/// `vertices.len()` on.
+/// `vertices.len()` on. `inside_sr` is the inside's area on the unit sphere, by which a sliver is told
+/// from everything but a sliver; it may be wrong by some steradians.
 ///
 /// The signed boundary of the triangles, equal positions being one vertex, is exactly the directed
 /// edges of the loops, whether or not chords cross. No triangle sags more than
 /// [`SAG_LIMIT_RAD`] allows (1.3 km on Earth) if no chord is longer than 2° of arc.
-pub(crate) fn triangulate(ellipsoid: Ellipsoid, vertices: &[DVec3], loops: &[Vec<u32>]) -> Caps {
+pub(crate) fn triangulate(
+    ellipsoid: Ellipsoid,
+    vertices: &[DVec3],
+    loops: &[Vec<u32>],
+    inside_sr: f64,
+) -> Caps {
     if loops.is_empty() {
         return globe(ellipsoid, vertices.len());
     }
-    let outline = Outline::new(ellipsoid, vertices, loops);
+    let outline = Outline::new(ellipsoid, vertices, loops, inside_sr);
     if outline.points.len() < 3 {
-        return outline.without_triangles();
+        return outline.flat(Vec::new());
     }
     let (centre, radius_rad) = outline.bounding_cap();
     if loops.len() == 1
@@ -97,10 +105,17 @@ struct Outline<'a> {
     /// For each loop the range of its points.
     ranges: Vec<std::ops::Range<usize>>,
     vertices: &'a [DVec3],
+    /// Area of the inside, steradians, roughly.
+    inside_sr: f64,
 }
 
 impl<'a> Outline<'a> {
-    fn new(ellipsoid: Ellipsoid, vertices: &'a [DVec3], loops: &[Vec<u32>]) -> Self {
+    fn new(
+        ellipsoid: Ellipsoid,
+        vertices: &'a [DVec3],
+        loops: &[Vec<u32>],
+        inside_sr: f64,
+    ) -> Self {
         let shared: Vec<u32> = loops.iter().flatten().copied().collect();
         let radii_m = ellipsoid.radii_m();
         let mut end = 0;
@@ -119,6 +134,7 @@ impl<'a> Outline<'a> {
                 .collect(),
             shared,
             vertices,
+            inside_sr,
         }
     }
 
@@ -143,18 +159,11 @@ impl<'a> Outline<'a> {
     /// Whether the inside holds the antipode of `centre`.
     ///
     /// The signed areas swept from `centre` sum to the inside's area, less the sphere's if the
-    /// antipode is inside. Chords may lie a few metres beside the true loop and so turn a sliver
-    /// inside out: that does not count.
+    /// antipode is inside. Of the two the nearer to what is known to be inside is meant: chords may
+    /// lie a few metres beside the true loop and so turn a sliver inside out.
     fn contains_antipode(&self, centre: DVec3) -> bool {
-        const CHORD_DEVIATION_RAD: f64 = 1e-6;
-        let (mut area, mut uncertain) = (0.0, 0.0);
-        for [a, b] in self.edges() {
-            let (a, b) = (self.points[a], self.points[b]);
-            let length = a.distance(b);
-            area += swept_area(centre, a, b);
-            uncertain += length * CHORD_DEVIATION_RAD.min(length / 64.0);
-        }
-        area < -uncertain
+        let swept = |[a, b]: [usize; 2]| swept_area(centre, self.points[a], self.points[b]);
+        self.edges().map(swept).sum::<f64>() < self.inside_sr - TAU
     }
 
     /// A chart whose pole is well away from the loops, and how often they wind around the pole.
@@ -192,7 +201,7 @@ impl<'a> Outline<'a> {
 
     fn triangulate_in(&self, chart: Chart, winding_of_pole: i32) -> Caps {
         let Some(mut constrained) = Constrained::new(chart, winding_of_pole, self) else {
-            return self.caps(self.fans(), Vec::new());
+            return self.flat(self.fans());
         };
         refine(&mut constrained);
         let triangles = constrained.triangles(self.points.len());
@@ -208,9 +217,17 @@ impl<'a> Outline<'a> {
         self.ranges.iter().flat_map(fan).collect()
     }
 
-    /// Boundary chords alone bound the sag where nothing is to be filled.
-    fn without_triangles(&self) -> Caps {
-        self.caps(Vec::new(), Vec::new())
+    /// The caps of loops that enclose nothing, or everything but nothing: then the whole ellipsoid is
+    /// added, which has no boundary.
+    fn flat(&self, triangles: Vec<[u32; 3]>) -> Caps {
+        let mut caps = self.caps(triangles, Vec::new());
+        if self.inside_sr > TAU {
+            let globe = globe(self.ellipsoid, self.first_interior);
+            caps.triangles.extend(globe.triangles);
+            caps.interior = globe.interior;
+            caps.sag_m = caps.sag_m.max(globe.sag_m);
+        }
+        caps
     }
 
     /// Turns triangles of points, and of `interior` points after them, into triangles of the shared array.

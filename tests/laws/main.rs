@@ -1,5 +1,6 @@
 //! Laws that every mesh keeps, on real countries and on shapes that break others.
 
+mod degenerate;
 mod hostile;
 mod law;
 mod real;

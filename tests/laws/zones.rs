@@ -17,6 +17,7 @@ fn circles_have_their_areas() {
     let options = MeshOptions {
         ellipsoid: sphere,
         tolerance_m: 0.01,
+        ..MeshOptions::default()
     };
     for centre in [
         at(0.0, 0.0),

@@ -8,7 +8,7 @@ use std::{collections::HashMap, f64::consts::PI, f64::consts::TAU};
 
 use glam::{DQuat, DVec3};
 
-use super::{Caps, Outline, sag, triangulate};
+use super::{Caps, Outline, sag, swept_area, triangulate};
 use crate::Ellipsoid;
 
 const ELLIPSOIDS: [Ellipsoid; 3] = [
@@ -102,7 +102,30 @@ impl Case {
     }
 
     fn caps(&self) -> Caps {
-        triangulate(self.ellipsoid, &self.vertices, &self.loops)
+        triangulate(
+            self.ellipsoid,
+            &self.vertices,
+            &self.loops,
+            self.inside_sr(),
+        )
+    }
+
+    /// Area of the inside, steradians; slivers are taken for slivers, whichever way they turn.
+    fn inside_sr(&self) -> f64 {
+        let outline = Outline::new(self.ellipsoid, &self.vertices, &self.loops, 0.0);
+        let (centre, _) = outline.bounding_cap();
+        let (mut area, mut uncertain) = (0.0, 0.0);
+        for [a, b] in outline.edges() {
+            let (a, b) = (outline.points[a], outline.points[b]);
+            let length = a.distance(b);
+            area += swept_area(centre, a, b);
+            uncertain += length * f64::min(1e-6, length / 64.0);
+        }
+        if area < -uncertain {
+            area + 2.0 * TAU
+        } else {
+            area
+        }
     }
 
     /// Everything that must hold for any input: the signed boundary, the area, the reported sag.

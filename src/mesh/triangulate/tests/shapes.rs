@@ -182,7 +182,12 @@ fn horns_that_end_opposite_the_middle() {
         for_all(&[densified(&corners)], |case| {
             case.check();
             // An edge through the projection point would leave the inside ambiguous.
-            let outline = Outline::new(case.ellipsoid, &case.vertices, &case.loops);
+            let outline = Outline::new(
+                case.ellipsoid,
+                &case.vertices,
+                &case.loops,
+                case.inside_sr(),
+            );
             let (centre, radius_rad) = outline.bounding_cap();
             let pole = -outline.chart(centre, radius_rad).0.centre();
             assert!(outline.points.iter().all(|p| p.distance(pole) > 0.3));
