@@ -29,6 +29,8 @@ pub struct Gate<'a> {
     started: Instant,
     subjects: usize,
     cells: usize,
+    /// Cells with a boundary in view.
+    divided: usize,
     /// Cells where the stencil had to count for want of head-room.
     counted_by_stencil: usize,
     failed: Vec<String>,
@@ -42,6 +44,7 @@ impl<'a> Gate<'a> {
             started: Instant::now(),
             subjects: 0,
             cells: 0,
+            divided: 0,
             counted_by_stencil: 0,
             failed: Vec::new(),
         }
@@ -79,6 +82,13 @@ impl<'a> Gate<'a> {
             println!("{cell}");
             assert!(score.surface > 0, "{cell}: only sky");
             self.cells += 1;
+            let plain = expected
+                .iter()
+                .zip(&surface.points_m)
+                .filter(|(_, seen)| seen.is_some());
+            let mut ids = plain.map(|(id, _)| id);
+            let first = ids.next();
+            self.divided += usize::from(ids.any(|id| Some(id) != first));
             self.counted_by_stencil += usize::from(picture.stats.technique != technique);
             if wrong + disagreeing > 0 {
                 self.failed
@@ -93,13 +103,14 @@ impl<'a> Gate<'a> {
             name,
             subjects,
             cells,
+            divided,
             counted_by_stencil,
             failed,
             ..
         } = self;
         let all = ALL_CELLS.fetch_add(cells, Ordering::Relaxed) + cells;
         println!(
-            "total of {name}: {cells} cells of {subjects} placed shapes, {} failed, \
+            "total of {name}: {cells} cells of {subjects} placed shapes, {divided} with a boundary in view, {} failed, \
              {counted_by_stencil} without head-room for winding, {:.0} s; {all} cells so far",
             failed.len(),
             self.started.elapsed().as_secs_f64()

@@ -11,6 +11,7 @@
 //! rule for rings that cross themselves, whichever way they wind.
 
 mod catalogue;
+mod charts;
 #[path = "../common/mod.rs"]
 mod common;
 mod gate;

@@ -61,9 +61,21 @@ impl Subject {
         centre: LonLat,
         radius_m: f64,
     ) -> Self {
+        Self::judged_as(name, near, regions, regions, centre, radius_m)
+    }
+
+    /// The same, and the oracle is told of the regions in another way.
+    pub fn judged_as(
+        name: &str,
+        near: (&str, LonLat),
+        regions: &[Region],
+        judged: &[Region],
+        centre: LonLat,
+        radius_m: f64,
+    ) -> Self {
         let (placement, near) = near;
-        let oracle = Oracle::new(regions, Ellipsoid::WGS84);
-        let vertex = nearest_vertex(regions, near);
+        let oracle = Oracle::new(judged, Ellipsoid::WGS84);
+        let vertex = nearest_vertex(judged, near);
         let foci = Foci::new(&oracle, centre, vertex, near, radius_m);
         Self {
             name: name.to_owned(),
