@@ -3,8 +3,10 @@
 //! A stored chord may lie metres beside the true edge, its end columns may stand too far away for
 //! single precision, and its flat wall misses the edge where the end normals are skew. Near the eye
 //! that shows. A *patch* takes the place of one chord's wall and has the same boundary, so that what
-//! is drawn stays closed whatever the neighbours do: finer walls, *ears* between chord and polyline
-//! at top and bottom, and, where columns are cut in height, slivers between cut and straight column.
+//! is drawn stays closed whatever the neighbours do: finer walls, and *ears* between chord and polyline
+//! at top and bottom. Where an end column is cut in height, all chords that end there are refined and cut
+//! it alike. (Slivers between a cut and a straight column would close it as well; but depth interpolated
+//! over what has no width may be anything, and a pixel that falls into one would miss a face.)
 
 use glam::DVec3;
 
@@ -66,17 +68,23 @@ impl Patch {
         let nearest_m = sight.distance_to_m(&arc.bounds);
         let longest_m = 2.1 * arc.bounds.radius_rad * mesh.ellipsoid.a_m;
         let limits = Limits::at(sight, nearest_m);
-        if !limits.exceeded_by(longest_m, mesh_deviation_m(mesh, arc)) {
+        let (middle_m, radius_m) = sight.sphere(&arc.bounds);
+        let may_cut = reach_m(sight, middle_m.length() + radius_m) > REACH * nearest_m;
+        if !may_cut && !limits.exceeded_by(longest_m, mesh_deviation_m(mesh, arc)) {
             return;
         }
+        let is_cut = |point_m: DVec3| cuts_m(point_m, sight).next().is_some();
+        let mut a_is_cut = is_cut(mesh.vertices[arc.first_vertex as usize]);
         for vertex in arc.first_vertex..arc.first_vertex + arc.vertex_count - 1 {
             let a = mesh.vertices[vertex as usize];
             let b = mesh.vertices[vertex as usize + 1];
+            let b_is_cut = is_cut(b);
             let limits = Limits::at(sight, sight.distance_to_wall_m(a, b));
             let deviation_m = f64::from(mesh.boundary[vertex as usize].deviation_m);
-            if limits.exceeded_by(a.distance(b), deviation_m) {
+            if a_is_cut || b_is_cut || limits.exceeded_by(a.distance(b), deviation_m) {
                 self.refine_chord(mesh, arc_index, vertex, sight);
             }
+            a_is_cut = b_is_cut;
         }
     }
 
@@ -91,7 +99,6 @@ impl Patch {
             self.add_wall(&pair[0], &pair[1]);
         }
         self.add_ears(&columns);
-        self.add_slivers(&columns[0], &columns[columns.len() - 1]);
         let first_point = self.points.len() as u32;
         self.points.extend(columns.iter().map(|column| column.base));
         self.chords.push(RefinedChord {
@@ -104,26 +111,15 @@ impl Patch {
         });
     }
 
-    /// A column from bottom to top. It is cut above and below the eye where its ends stand too far
-    /// away, at heights that depend on the column and the eye alone.
+    /// A column from bottom to top, cut where it must be.
     fn add_column(&mut self, surface_m: DVec3, sight: &Sight) -> Column {
         let base = self.vertices.len() as u32;
         self.vertices.push(encode(surface_m));
-        let distance_m = surface_m.distance(sight.eye_ecef_m);
-        let bottom_m = sight.extrusion.bottom_at_m(distance_m);
-        let top_m = sight.extrusion.top_at_m(distance_m);
-        let seen_from_m = sight.distance_to_wall_m(surface_m, surface_m);
-        let middle_m = sight.nearest_surface_height_m();
         let normal = sight.ellipsoid.normal_at_surface(surface_m);
         let mut corners = vec![4 * base + BOTTOM];
-        for cut_m in [
-            middle_m - REACH * seen_from_m,
-            middle_m + REACH * seen_from_m,
-        ] {
-            if cut_m > bottom_m + 1.0 && cut_m < top_m - 1.0 {
-                corners.push(4 * self.vertices.len() as u32 + AS_IS);
-                self.vertices.push(encode(surface_m + normal * cut_m));
-            }
+        for cut_m in cuts_m(surface_m, sight) {
+            corners.push(4 * self.vertices.len() as u32 + AS_IS);
+            self.vertices.push(encode(surface_m + normal * cut_m));
         }
         corners.push(4 * base + TOP);
         Column { base, corners }
@@ -158,18 +154,27 @@ impl Patch {
                 .extend([start, far, near].map(|vertex| 4 * vertex + BOTTOM));
         }
     }
+}
 
-    /// Between the cut end columns and the straight ones that the neighbours have.
-    fn add_slivers(&mut self, start: &Column, end: &Column) {
-        let top = start.corners[start.corners.len() - 1];
-        for pair in start.corners[..start.corners.len() - 1].windows(2) {
-            self.indices.extend([top, pair[0], pair[1]]);
-        }
-        let bottom = end.corners[0];
-        for pair in end.corners[1..].windows(2) {
-            self.indices.extend([bottom, pair[1], pair[0]]);
-        }
-    }
+/// Heights, metres, at which a column is cut: above and below the eye, where its ends stand too far away.
+/// They depend on the column and the eye alone, so that all walls at a column cut it alike.
+fn cuts_m(surface_m: DVec3, sight: &Sight) -> impl Iterator<Item = f64> {
+    let distance_m = surface_m.distance(sight.eye_ecef_m);
+    let bottom_m = sight.extrusion.bottom_at_m(distance_m);
+    let top_m = sight.extrusion.top_at_m(distance_m);
+    let seen_from_m = sight.distance_to_wall_m(surface_m, surface_m);
+    let middle_m = sight.nearest_surface_height_m();
+    [-REACH, REACH]
+        .map(|reach| middle_m + reach * seen_from_m)
+        .into_iter()
+        .filter(move |cut_m| *cut_m > bottom_m + 1.0 && *cut_m < top_m - 1.0)
+}
+
+/// How far, metres, columns at a distance from the eye reach beyond the surface that is nearest to it.
+fn reach_m(sight: &Sight, distance_m: f64) -> f64 {
+    let middle_m = sight.nearest_surface_height_m();
+    let above_m = sight.extrusion.top_at_m(distance_m) - middle_m;
+    above_m.max(middle_m - sight.extrusion.bottom_at_m(distance_m))
 }
 
 /// A column's vertex and its corners from bottom to top, as indices of the patch.
@@ -200,8 +205,6 @@ impl Limits {
         let tolerance_m = sight.tolerance_m(distance_m);
         let top_m = sight.extrusion.top_at_m(distance_m);
         let bottom_m = sight.extrusion.bottom_at_m(distance_m);
-        let middle_m = sight.nearest_surface_height_m();
-        let reach_m = (top_m - middle_m).max(middle_m - bottom_m);
         let ellipsoid = sight.ellipsoid;
         // e′²: flat walls with skew end normals miss the edge by e′²·cos²φ·(s/R)·H/8.
         let skew = (ellipsoid.a_m / ellipsoid.b_m).powi(2) - 1.0;
@@ -210,7 +213,7 @@ impl Limits {
             length_m: REACH * distance_m,
             area_m2: 8.0 * ellipsoid.b_m * tolerance_m / skew.abs(),
             wall_m: top_m - bottom_m,
-            columns_reach_too_far: reach_m > REACH * distance_m,
+            columns_reach_too_far: reach_m(sight, distance_m) > REACH * distance_m,
         }
     }
 
@@ -382,6 +385,66 @@ mod tests {
                 *edges.entry((to, from)).or_default() -= sign;
             }
         }
+    }
+
+    /// Chords of 30 m under the eye between mountains and trenches: where one cuts a column, so does its
+    /// neighbour, and together they have the boundary of the walls they replace.
+    #[test]
+    fn neighbours_cut_their_column_alike() {
+        let mesh = chain(200, 0.000_4);
+        let range = HeightRange {
+            min_m: -11_000.0,
+            max_m: 9_000.0,
+        };
+        let sight = looking_down(&mesh, 1.0 - 9_000.0, range);
+        let mut patch = Patch::default();
+        patch.refine_arc(&mesh, 0, &sight);
+        let refined = patch.chords.len();
+        assert!((4..200).contains(&refined), "{refined}");
+        assert!(patch.indices.iter().any(|index| index % 4 == AS_IS));
+        let mut edges = HashMap::new();
+        for triangle in patch.indices.as_chunks::<3>().0 {
+            let corners = triangle.map(|index| (patch.vertices[(index / 4) as usize], index % 4));
+            add_boundary(&mut edges, corners, 1);
+        }
+        for chord in &patch.chords {
+            let [a, b] = [chord.vertex, chord.vertex + 1]
+                .map(|vertex| encode(mesh.vertices[vertex as usize]));
+            let wall = [
+                [(a, TOP), (a, BOTTOM), (b, TOP)],
+                [(a, BOTTOM), (b, BOTTOM), (b, TOP)],
+            ];
+            for triangle in wall {
+                add_boundary(&mut edges, triangle, -1);
+            }
+        }
+        assert!(edges.values().all(|&sum| sum == 0));
+    }
+
+    /// A line of short edges along a parallel, as a single arc.
+    fn chain(edges: u32, step_deg: f64) -> FillMesh {
+        let at = |k: u32| LonLat::new(10.0 + step_deg * f64::from(k), 47.0);
+        let mut mesh = one_edge(EdgeKind::Straight, at(0), at(edges));
+        mesh.curves = (0..edges)
+            .map(|k| Curve::between(EdgeKind::Straight, at(k), at(k + 1)))
+            .collect();
+        mesh.vertices = (0..=edges)
+            .map(|k| mesh.ellipsoid.ecef(at(k), 0.0))
+            .collect();
+        mesh.boundary = (0..=edges)
+            .map(|k| BoundaryVertex {
+                curve: k.min(edges - 1),
+                deviation_m: 1e-3,
+                t: if k == edges { 1.0 } else { 0.0 },
+            })
+            .collect();
+        mesh.arcs[0].vertex_count = edges + 1;
+        // The eye stands over the middle of the first curve: in the midst of the line.
+        mesh.curves.rotate_left(edges as usize / 2);
+        for vertex in &mut mesh.boundary {
+            vertex.curve = (vertex.curve + edges - edges / 2) % edges;
+        }
+        mesh
     }
 
     #[test]

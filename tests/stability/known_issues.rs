@@ -1,65 +1,56 @@
-//! Cells that fail, and why. Each names its cause as far as it is known.
+//! Cells that failed, each for a single pixel. What the first found is mended, and they stay; the ignored
+//! ones still fail and are left out of the catalogue.
 
 use globefill::EdgeKind;
 
 use crate::{
     common::headless::gpu,
     gate::Gate,
-    placement::POLE_EDGE,
-    shapes,
-    shot::{BARE, Shot},
+    placement::{PLACEMENTS, POLE_EDGE},
+    real, shapes,
+    shot::{BARE, HIGH_AND_LOW},
     subject::Subject,
 };
 
+/// A vertex of a bottom cap falls on a pixel's centre, within 1/256 px, amid a disc whose boundary is out
+/// of sight. Moved by that much and seen at a slant, the cap came before the surface.
 #[test]
-#[ignore = "known issue: "]
-fn a_pixel_amid_a_disc_of_85_degrees() {
+fn a_cap_moved_by_less_than_a_pixel_stays_below_the_surface() {
     let Some(gpu) = gpu() else { return };
-    let mut gate = Gate::new("known issue", gpu);
-    let shape = &shapes::great()[0];
-    let subject = Subject::placed(shape, &POLE_EDGE, EdgeKind::Geodesic);
-    let shots: Vec<Shot> = BARE.into_iter().skip(8).take(1).collect();
-    gate.check(&subject, &shots);
+    let mut gate = Gate::new("a moved cap", gpu);
+    let disc = &shapes::great()[0];
+    let subject = Subject::placed(disc, &POLE_EDGE, EdgeKind::Geodesic);
+    gate.check(&subject, &BARE[8..9]);
     gate.finish();
 }
 
+/// From amid tall walls, pixels met slivers between cut and straight columns, where depth is ill-defined:
+/// one wrong at (159, 98), 1.1 m above the edge of Natural Earth's hole at the south pole.
 #[test]
-#[ignore = "scratch"]
-fn scratch() {
-    use crate::common::{
-        camera::Pose,
-        draw::IdPainter,
-        surface::{Cast, DepthKind, Surface, Terrain},
-    };
-    use globefill::{CountTechnique, View};
+fn no_pixel_meets_a_sliver() {
     let Some(gpu) = gpu() else { return };
-    let subject = &crate::real::countries()[0];
-    let figure = &subject.oracle.figure;
-    let shot = crate::shot::HIGH_AND_LOW[3];
-    let first = shot.pose(figure, &subject.foci);
-    let n = figure.normal(first.at);
-    println!(
-        "{first:?} ground {} mesh {} {} sag {}",
-        shot.terrain.height_m(n),
-        subject.mesh.arcs.len(),
-        subject.mesh.vertices.len(),
-        subject.mesh.sag_m
-    );
-    for (k, scale) in [(1, 1), (1, 8), (2, 8)] {
-        let terrain = Terrain::Deep;
-        let ground = terrain.height_m(n);
-        let pose = Pose { height_m: ground + 1.0 + f64::from(k) * 0.1, ..first };
-        let size = glam::UVec2::new(320, 180) * scale;
-        let cast = Cast::new(figure, &pose, size, 1, terrain);
-        let surface = Surface::new(&cast, DepthKind::Reversed);
-        let mut painter = IdPainter::new(gpu, subject.mesh.clone(), &surface, CountTechnique::Winding);
-        let picture = painter.draw(gpu, &mut View::default(), &surface, 0.0);
-        let expected = crate::common::score::expected_ids(&subject.oracle, &surface);
-        let w = size.x as usize;
-        let wrong: Vec<_> = (0..picture.ids.len()).filter(|&p| picture.ids[p] != expected[p]).map(|p| ((p % w) as f64 / f64::from(scale) - 160.0, (p / w) as f64 / f64::from(scale) - 90.0, picture.ids[p], expected[p])).collect();
-        println!("{k} {scale}: {} {:?}", wrong.len(), wrong.iter().take(60).collect::<Vec<_>>());
+    let mut gate = Gate::new("slivers", gpu);
+    let mut antarctica = real::countries().swap_remove(0);
+    for _ in 0..2 {
+        antarctica.foci.lift_m += 0.1;
+        gate.check(&antarctica, &HIGH_AND_LOW[3..4]);
     }
-    for edge in subject.oracle.boundary(0).filter(|e| e.from.lat_deg < -89.99 && e.to.lat_deg < -89.99) {
-        println!("{:?} {:?} {}", edge.from, edge.to, edge.radius_m);
+    gate.finish();
+}
+
+/// 50 m above the point where the forty slices of a pie meet, looking 30° down, walls from −11 to 9 km:
+/// all walls between slices are seen exactly edge-on. The stencil paints slice 16 at (200, 56), 26 px
+/// outside the pie; winding is right, and so are the slices around. As with slivers, a wall that has no
+/// width on the screen but covers a pixel's centre has no defined depth there.
+#[test]
+#[ignore = "known issue: one pixel wrong where walls are seen exactly edge-on and the stencil counts"]
+fn slices_seen_from_their_common_vertex() {
+    let Some(gpu) = gpu() else { return };
+    let mut gate = Gate::new("edge-on slices", gpu);
+    let pie = &shapes::many()[2];
+    for placement in &PLACEMENTS {
+        let subject = Subject::placed(pie, placement, EdgeKind::Geodesic);
+        gate.check(&subject, &HIGH_AND_LOW[8..9]);
     }
+    gate.finish();
 }

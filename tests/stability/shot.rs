@@ -75,7 +75,7 @@ impl Shot {
             Height::Radii(radii) => (radii * foci.radius_m).clamp(1.0, 2e7),
         };
         let ground_m = self.terrain.height_m(figure.normal(at));
-        let pose = Pose::nadir(at.lon_deg, at.lat_deg, ground_m + height_m)
+        let pose = Pose::nadir(at.lon_deg, at.lat_deg, ground_m + height_m + foci.lift_m)
             .turned(foci.bearing_deg + self.heading_deg, self.pitch_deg);
         Pose {
             // From beyond the Moon, through a telescope.

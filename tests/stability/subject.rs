@@ -27,6 +27,8 @@ pub struct Foci {
     pub bearing_deg: f64,
     /// How far, metres, the shape reaches from its centre.
     pub radius_m: f64,
+    /// How much higher, metres, cameras stand than they say.
+    pub lift_m: f64,
 }
 
 impl Subject {
@@ -148,6 +150,7 @@ impl Foci {
             edge: focus,
             bearing_deg: along_m.dot(east).atan2(along_m.dot(north)).to_degrees(),
             radius_m,
+            lift_m: 0.0,
         }
     }
 }
