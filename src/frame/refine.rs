@@ -396,7 +396,7 @@ mod tests {
             min_m: -11_000.0,
             max_m: 9_000.0,
         };
-        let sight = looking_down(&mesh, 1.0 - 9_000.0, range);
+        let sight = looking_down(&mesh, 1.0, range);
         let mut patch = Patch::default();
         patch.refine_arc(&mesh, 0, &sight);
         let refined = patch.chords.len();
