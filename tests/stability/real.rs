@@ -23,6 +23,9 @@ fn region(edges: EdgeKind, shell: &[(f64, f64)], holes: &[&[(f64, f64)]]) -> Reg
     }
 }
 
+/// Longitudes and latitudes, degrees.
+type Written<'a> = &'a [(f64, f64)];
+
 /// Rings across the antimeridian: once (round a pole), twice, and five times.
 pub fn over_the_antimeridian() -> Vec<Subject> {
     let once = [(-100.0, -70.0), (20.0, -72.0), (140.0, -70.0)];
@@ -50,7 +53,7 @@ pub fn over_the_antimeridian() -> Vec<Subject> {
         (-90.0, 70.0),
         (0.0, 65.0),
     ];
-    let rings: [(&str, &[(f64, f64)], LonLat, LonLat); 4] = [
+    let rings: [(&str, Written<'_>, LonLat, LonLat); 4] = [
         (
             "ring over 180° once",
             &once,
