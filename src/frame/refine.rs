@@ -3,8 +3,10 @@
 //! A stored chord may lie metres beside the true edge, its end columns may stand too far away for
 //! single precision, and its flat wall misses the edge where the end normals are skew. Near the eye
 //! that shows. A *patch* takes the place of one chord's wall and has the same boundary, so that what
-//! is drawn stays closed whatever the neighbours do: finer walls, *ears* between chord and polyline
-//! at top and bottom, and, where columns are cut in height, slivers between cut and straight column.
+//! is drawn stays closed whatever the neighbours do: finer walls, and *ears* between chord and polyline
+//! at top and bottom. Where an end column is cut in height, all chords that end there are refined and cut
+//! it alike. (Slivers between a cut and a straight column would close it as well; but depth interpolated
+//! over what has no width may be anything, and a pixel that falls into one would miss a face.)
 
 use glam::DVec3;
 
@@ -66,17 +68,23 @@ impl Patch {
         let nearest_m = sight.distance_to_m(&arc.bounds);
         let longest_m = 2.1 * arc.bounds.radius_rad * mesh.ellipsoid.a_m;
         let limits = Limits::at(sight, nearest_m);
-        if !limits.exceeded_by(longest_m, mesh_deviation_m(mesh, arc)) {
+        let (middle_m, radius_m) = sight.sphere(&arc.bounds);
+        let may_cut = reach_m(sight, middle_m.length() + radius_m) > REACH * nearest_m;
+        if !may_cut && !limits.exceeded_by(longest_m, mesh_deviation_m(mesh, arc)) {
             return;
         }
+        let is_cut = |point_m: DVec3| cuts_m(point_m, sight).next().is_some();
+        let mut a_is_cut = is_cut(mesh.vertices[arc.first_vertex as usize]);
         for vertex in arc.first_vertex..arc.first_vertex + arc.vertex_count - 1 {
             let a = mesh.vertices[vertex as usize];
             let b = mesh.vertices[vertex as usize + 1];
+            let b_is_cut = is_cut(b);
             let limits = Limits::at(sight, sight.distance_to_wall_m(a, b));
             let deviation_m = f64::from(mesh.boundary[vertex as usize].deviation_m);
-            if limits.exceeded_by(a.distance(b), deviation_m) {
+            if a_is_cut || b_is_cut || limits.exceeded_by(a.distance(b), deviation_m) {
                 self.refine_chord(mesh, arc_index, vertex, sight);
             }
+            a_is_cut = b_is_cut;
         }
     }
 
@@ -91,7 +99,6 @@ impl Patch {
             self.add_wall(&pair[0], &pair[1]);
         }
         self.add_ears(&columns);
-        self.add_slivers(&columns[0], &columns[columns.len() - 1]);
         let first_point = self.points.len() as u32;
         self.points.extend(columns.iter().map(|column| column.base));
         self.chords.push(RefinedChord {
@@ -104,26 +111,15 @@ impl Patch {
         });
     }
 
-    /// A column from bottom to top. It is cut above and below the eye where its ends stand too far
-    /// away, at heights that depend on the column and the eye alone.
+    /// A column from bottom to top, cut where it must be.
     fn add_column(&mut self, surface_m: DVec3, sight: &Sight) -> Column {
         let base = self.vertices.len() as u32;
         self.vertices.push(encode(surface_m));
-        let distance_m = surface_m.distance(sight.eye_ecef_m);
-        let bottom_m = sight.extrusion.bottom_at_m(distance_m);
-        let top_m = sight.extrusion.top_at_m(distance_m);
-        let seen_from_m = sight.distance_to_wall_m(surface_m, surface_m);
-        let middle_m = sight.nearest_surface_height_m();
         let normal = sight.ellipsoid.normal_at_surface(surface_m);
         let mut corners = vec![4 * base + BOTTOM];
-        for cut_m in [
-            middle_m - REACH * seen_from_m,
-            middle_m + REACH * seen_from_m,
-        ] {
-            if cut_m > bottom_m + 1.0 && cut_m < top_m - 1.0 {
-                corners.push(4 * self.vertices.len() as u32 + AS_IS);
-                self.vertices.push(encode(surface_m + normal * cut_m));
-            }
+        for cut_m in cuts_m(surface_m, sight) {
+            corners.push(4 * self.vertices.len() as u32 + AS_IS);
+            self.vertices.push(encode(surface_m + normal * cut_m));
         }
         corners.push(4 * base + TOP);
         Column { base, corners }
@@ -158,18 +154,27 @@ impl Patch {
                 .extend([start, far, near].map(|vertex| 4 * vertex + BOTTOM));
         }
     }
+}
 
-    /// Between the cut end columns and the straight ones that the neighbours have.
-    fn add_slivers(&mut self, start: &Column, end: &Column) {
-        let top = start.corners[start.corners.len() - 1];
-        for pair in start.corners[..start.corners.len() - 1].windows(2) {
-            self.indices.extend([top, pair[0], pair[1]]);
-        }
-        let bottom = end.corners[0];
-        for pair in end.corners[1..].windows(2) {
-            self.indices.extend([bottom, pair[1], pair[0]]);
-        }
-    }
+/// Heights, metres, at which a column is cut: above and below the eye, where its ends stand too far away.
+/// They depend on the column and the eye alone, so that all walls at a column cut it alike.
+fn cuts_m(surface_m: DVec3, sight: &Sight) -> impl Iterator<Item = f64> {
+    let distance_m = surface_m.distance(sight.eye_ecef_m);
+    let bottom_m = sight.extrusion.bottom_at_m(distance_m);
+    let top_m = sight.extrusion.top_at_m(distance_m);
+    let seen_from_m = sight.distance_to_wall_m(surface_m, surface_m);
+    let middle_m = sight.nearest_surface_height_m();
+    [-REACH, REACH]
+        .map(|reach| middle_m + reach * seen_from_m)
+        .into_iter()
+        .filter(move |cut_m| *cut_m > bottom_m + 1.0 && *cut_m < top_m - 1.0)
+}
+
+/// How far, metres, columns at a distance from the eye reach beyond the surface that is nearest to it.
+fn reach_m(sight: &Sight, distance_m: f64) -> f64 {
+    let middle_m = sight.nearest_surface_height_m();
+    let above_m = sight.extrusion.top_at_m(distance_m) - middle_m;
+    above_m.max(middle_m - sight.extrusion.bottom_at_m(distance_m))
 }
 
 /// A column's vertex and its corners from bottom to top, as indices of the patch.
@@ -200,8 +205,6 @@ impl Limits {
         let tolerance_m = sight.tolerance_m(distance_m);
         let top_m = sight.extrusion.top_at_m(distance_m);
         let bottom_m = sight.extrusion.bottom_at_m(distance_m);
-        let middle_m = sight.nearest_surface_height_m();
-        let reach_m = (top_m - middle_m).max(middle_m - bottom_m);
         let ellipsoid = sight.ellipsoid;
         // e′²: flat walls with skew end normals miss the edge by e′²·cos²φ·(s/R)·H/8.
         let skew = (ellipsoid.a_m / ellipsoid.b_m).powi(2) - 1.0;
@@ -210,7 +213,7 @@ impl Limits {
             length_m: REACH * distance_m,
             area_m2: 8.0 * ellipsoid.b_m * tolerance_m / skew.abs(),
             wall_m: top_m - bottom_m,
-            columns_reach_too_far: reach_m > REACH * distance_m,
+            columns_reach_too_far: reach_m(sight, distance_m) > REACH * distance_m,
         }
     }
 
@@ -276,152 +279,4 @@ fn mesh_deviation_m(mesh: &FillMesh, arc: &Arc) -> f64 {
 }
 
 #[cfg(test)]
-mod tests {
-    use std::collections::HashMap;
-
-    use glam::{DMat3, DMat4, DVec4, UVec2};
-
-    use super::*;
-    use crate::{
-        fill_mesh::{BoundaryVertex, Bounds},
-        geodetic::LonLat,
-        options::{Camera, Frame, HeightRange, RendererOptions},
-        region::EdgeKind,
-        {Curve, Ellipsoid},
-    };
-
-    /// One edge of about 100 km as a single arc of one chord.
-    fn one_edge(kind: EdgeKind, from: LonLat, to: LonLat) -> FillMesh {
-        let ellipsoid = Ellipsoid::WGS84;
-        let curve = Curve::between(kind, from, to);
-        let on = curve.on(&ellipsoid);
-        let (a, b) = (on.ecef(0.0), on.ecef(1.0));
-        let deviation_m = on.deviation_bound_m(0.0, 1.0) as f32;
-        let middle = (a + b) / ellipsoid.radii_m();
-        FillMesh {
-            ellipsoid,
-            vertices: vec![a, b],
-            boundary: vec![
-                BoundaryVertex {
-                    curve: 0,
-                    deviation_m,
-                    t: 0.0,
-                },
-                BoundaryVertex {
-                    curve: 0,
-                    deviation_m: 0.0,
-                    t: 1.0,
-                },
-            ],
-            curves: vec![curve],
-            arcs: vec![Arc {
-                first_vertex: 0,
-                vertex_count: 2,
-                left: Some(0),
-                right: None,
-                bounds: Bounds {
-                    axis: middle.normalize(),
-                    radius_rad: 0.01,
-                },
-            }],
-            ..Default::default()
-        }
-    }
-
-    fn looking_down(mesh: &FillMesh, height_m: f64, terrain: HeightRange) -> Sight {
-        let curve = mesh.curves[0].on(&mesh.ellipsoid);
-        let middle_m = curve.ecef(0.5);
-        let normal = mesh.ellipsoid.normal_at_surface(middle_m);
-        let right = normal.any_orthonormal_vector();
-        let view_from_ecef = DMat3::from_cols(right, normal.cross(right), normal).transpose();
-        let scale = 1.0 / 30f64.to_radians().tan();
-        let clip_from_view = DMat4::from_cols(
-            DVec4::new(scale, 0.0, 0.0, 0.0),
-            DVec4::new(0.0, scale, 0.0, 0.0),
-            DVec4::new(0.0, 0.0, 0.0, -1.0),
-            DVec4::new(0.0, 0.0, 0.1 * height_m, 0.0),
-        );
-        let frame = Frame {
-            camera: Camera {
-                eye_ecef_m: middle_m + normal * (terrain.max_m + height_m),
-                view_from_ecef,
-                clip_from_view,
-            },
-            size_px: UVec2::new(720, 720),
-            terrain,
-            pixel_error: 0.0,
-            host_pixel_error: 1.0,
-        };
-        Sight::new(mesh.ellipsoid, 1_000.0, &frame, &RendererOptions::default()).expect("valid")
-    }
-
-    /// However narrow the field of view, refining ends where vertices are rounded.
-    #[test]
-    fn a_telescope_does_not_refine_without_end() {
-        let mesh = one_edge(
-            EdgeKind::Straight,
-            LonLat::new(10.0, 47.0),
-            LonLat::new(11.2, 47.3),
-        );
-        let mut sight = looking_down(&mesh, 100.0, HeightRange::default());
-        sight.pixel_rad = 1e-9;
-        let mut patch = Patch::default();
-        patch.refine_arc(&mesh, 0, &sight);
-        assert!(patch.vertices.len() < 200_000, "{}", patch.vertices.len());
-    }
-
-    /// A corner by what it is: the stored vertex and how it is drawn.
-    type Corner = (FixedVertex, u32);
-
-    fn add_boundary(edges: &mut HashMap<(Corner, Corner), i32>, triangle: [Corner; 3], sign: i32) {
-        for side in 0..3 {
-            let (from, to) = (triangle[side], triangle[(side + 1) % 3]);
-            if from < to {
-                *edges.entry((from, to)).or_default() += sign;
-            } else {
-                *edges.entry((to, from)).or_default() -= sign;
-            }
-        }
-    }
-
-    #[test]
-    fn a_patch_has_the_boundary_of_the_wall_it_replaces() {
-        let terrains = [(0.0, 0.0), (-11_000.0, 9_000.0), (4_000.0, 4_000.0)];
-        let (from, to) = (LonLat::new(10.0, 47.0), LonLat::new(11.2, 47.3));
-        for kind in [EdgeKind::Geodesic, EdgeKind::Rhumb, EdgeKind::Straight] {
-            for (min_m, max_m) in terrains {
-                for height_m in [0.5, 1.0, 10.0, 1e3, 1e4] {
-                    let mesh = one_edge(kind, from, to);
-                    let sight = looking_down(&mesh, height_m, HeightRange { min_m, max_m });
-                    let mut patch = Patch::default();
-                    patch.refine_arc(&mesh, 0, &sight);
-                    assert!(
-                        height_m > 100.0 || patch.chords.len() == 1,
-                        "{kind:?}, {height_m} m"
-                    );
-                    if patch.chords.is_empty() {
-                        continue;
-                    }
-
-                    let mut edges = HashMap::new();
-                    for triangle in patch.indices.as_chunks::<3>().0 {
-                        let corners =
-                            triangle.map(|index| (patch.vertices[(index / 4) as usize], index % 4));
-                        add_boundary(&mut edges, corners, 1);
-                    }
-                    let [a, b] = [0, 1].map(|vertex| encode(mesh.vertices[vertex]));
-                    let wall = [
-                        [(a, TOP), (a, BOTTOM), (b, TOP)],
-                        [(a, BOTTOM), (b, BOTTOM), (b, TOP)],
-                    ];
-                    for triangle in wall {
-                        add_boundary(&mut edges, triangle, -1);
-                    }
-                    assert!(edges.values().all(|&sum| sum == 0));
-                    // Refining costs little: a logarithm of the edge's length over the height.
-                    assert!(patch.vertices.len() < 3_000, "{}", patch.vertices.len());
-                }
-            }
-        }
-    }
-}
+mod tests;

@@ -19,6 +19,9 @@ const FINEST_TOLERANCE_M: f64 = 4e-6;
 const SLACK_M: f64 = 0.25;
 /// Depth steps of a host by which its surface may lie off.
 const SLACK_STEPS: f64 = 4.0;
+/// How far, pixels, rasterisers move a vertex: half of a 1/256 px an axis, doubled. A face seen at a slant
+/// is moved in height by as much: where it touches the surface, in front of it.
+const SNAP_PX: f64 = std::f64::consts::SQRT_2 / 256.0;
 
 /// How far the walls reach, as functions of the distance to the eye.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -100,6 +103,8 @@ impl Sight {
         let depth = DepthRange::of(projection, options.depth)?;
         let pixels_rad = pixel_angles_rad(projection, frame)?;
         let eye_height_m = ellipsoid.geodetic(camera.eye_ecef_m).1;
+        let [constant, linear, quadratic] = depth.slack(options);
+        let snapped = SNAP_PX * pixels_rad.max_element();
         Ok(Self {
             ellipsoid,
             eye_ecef_m: camera.eye_ecef_m,
@@ -117,7 +122,7 @@ impl Sight {
                 bottom_m: frame.terrain.min_m,
                 push_per_m: pixels_rad.max_element() * frame.host_pixel_error,
                 limit_m: ellipsoid.b_m / 20.0,
-                slack: depth.slack(options),
+                slack: [constant, linear + snapped, quadratic],
             },
             side_planes: side_planes.map(DVec3::normalize),
         })

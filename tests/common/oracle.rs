@@ -247,7 +247,8 @@ fn parity(figure: &Figure, ring: &[TrueEdge], p: LonLat) -> bool {
         == 1
 }
 
-/// Share of the ellipsoid's area that has odd parity: exact along each of many meridians.
+/// Share of the ellipsoid's area that has odd parity, 0 for rings within half a turn of longitude: exact
+/// along each of many meridians.
 fn area_share(figure: &Figure, ring: &[TrueEdge]) -> f64 {
     let wraps = ring
         .iter()
@@ -262,7 +263,8 @@ fn area_share(figure: &Figure, ring: &[TrueEdge]) -> f64 {
                 (w.min(x.0), e.max(x.1))
             })
     };
-    if west >= east {
+    // Within half a turn lies less than half of the globe: that is all that is asked.
+    if east - west < 180.0 {
         return 0.0;
     }
     const MERIDIANS: usize = 2048;
@@ -322,12 +324,14 @@ fn left_parity(figure: &Figure, ring: &[TrueEdge]) -> bool {
     panic!("the ring has no two sides");
 }
 
-/// The parity, with regard to `ring`, of most of `vertices` that are not vertices of the ring.
+/// The parity, with regard to `ring`, of most of `vertices` that are not vertices of the ring. Poles have no
+/// say: a box that ends there on a map has no vertex there on the globe.
 fn parity_of_most(figure: &Figure, ring: &[TrueEdge], vertices: &[LonLat]) -> bool {
     let stride = vertices.len() / 64 + 1;
     let votes: i32 = vertices
         .iter()
         .step_by(stride)
+        .filter(|v| v.lat_deg.abs() < 90.0)
         .filter(|&&v| !ring.iter().any(|e| canonical(e.from) == canonical(v)))
         .map(|&v| if parity(figure, ring, v) { 1 } else { -1 })
         .sum();

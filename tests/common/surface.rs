@@ -17,6 +17,10 @@ pub enum Terrain {
     },
     /// Mountains between 4 and 9 km: waves of 300 m to 60 km length along three axes.
     Rough,
+    /// The bare ellipsoid, of a host whose surface lies between −11 and 9 km elsewhere.
+    Level,
+    /// Mountains and trenches between −11 and 9 km: waves of 1.5 to 200 km length along three axes.
+    Deep,
     /// Facets of a quarter of a degree between corners up to 3 km high, as of a coarse mesh.
     Coarse,
 }
@@ -31,15 +35,29 @@ const WAVES: [(DVec3, f64); 6] = [
     (DVec3::new(110_000.0, -90_000.0, 130_000.0), 8.0),
 ];
 const ROUGH_MEAN_M: f64 = 6400.0;
+/// The same of [`Terrain::Deep`].
+const DEEP_WAVES: [(DVec3, f64); 5] = [
+    (DVec3::new(160.0, 102.0, -57.0), 7500.0),
+    (DVec3::new(-475.0, 675.0, 325.0), 1800.0),
+    (DVec3::new(5200.0, 3900.0, 9100.0), 300.0),
+    (DVec3::new(-21_000.0, 17_000.0, -13_000.0), 120.0),
+    (DVec3::new(57_000.0, 71_000.0, -66_000.0), 30.0),
+];
+const DEEP_MEAN_M: f64 = -1000.0;
 
 impl Terrain {
     pub fn height_m(self, normal: DVec3) -> f64 {
         match self {
-            Self::Bare => 0.0,
+            Self::Bare | Self::Level => 0.0,
             Self::Plateau { height_m } => height_m,
             Self::Rough => {
                 let waves = WAVES.iter().map(|(k, height)| height * k.dot(normal).sin());
                 ROUGH_MEAN_M + waves.sum::<f64>()
+            }
+            Self::Deep => {
+                let waves = DEEP_WAVES.iter();
+                let waves = waves.map(|(k, height)| height * k.dot(normal).sin());
+                DEEP_MEAN_M + waves.sum::<f64>()
             }
             Self::Coarse => coarse_m(normal),
         }
@@ -52,6 +70,11 @@ impl Terrain {
                 let reach: f64 = WAVES.iter().map(|(_, height)| height).sum();
                 (ROUGH_MEAN_M - reach, ROUGH_MEAN_M + reach)
             }
+            Self::Level => (-11_000.0, 9000.0),
+            Self::Deep => {
+                let reach: f64 = DEEP_WAVES.iter().map(|(_, height)| height).sum();
+                (DEEP_MEAN_M - reach, DEEP_MEAN_M + reach)
+            }
             Self::Coarse => (0.0, COARSE_MOST_M),
             level => (level.height_m(DVec3::Z), level.height_m(DVec3::Z)),
         }
@@ -59,7 +82,7 @@ impl Terrain {
 
     /// Distance along the view axis at which a ray meets the surface.
     pub fn hit(self, figure: &Figure, eye_m: DVec3, ray: DVec3) -> Option<f64> {
-        if self == Self::Bare {
+        if matches!(self, Self::Bare | Self::Level) {
             return figure.first_hit(eye_m, ray, 0.0);
         }
         let (low_m, high_m) = self.range_m();
@@ -305,6 +328,6 @@ impl Surface {
                 farthest_m = farthest_m.max(distance_m);
             }
         }
-        self.terrain == Terrain::Rough && farthest_m > 1.3 * nearest_m
+        matches!(self.terrain, Terrain::Rough | Terrain::Deep) && farthest_m > 1.3 * nearest_m
     }
 }

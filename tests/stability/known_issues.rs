@@ -1,0 +1,56 @@
+//! Cells that failed, each for a single pixel. What the first found is mended, and they stay; the ignored
+//! ones still fail and are left out of the catalogue.
+
+use globefill::EdgeKind;
+
+use crate::{
+    common::headless::gpu,
+    gate::Gate,
+    placement::{PLACEMENTS, POLE_EDGE},
+    real, shapes,
+    shot::{BARE, HIGH_AND_LOW},
+    subject::Subject,
+};
+
+/// A vertex of a bottom cap falls on a pixel's centre, within 1/256 px, amid a disc whose boundary is out
+/// of sight. Moved by that much and seen at a slant, the cap came before the surface.
+#[test]
+fn a_cap_moved_by_less_than_a_pixel_stays_below_the_surface() {
+    let Some(gpu) = gpu() else { return };
+    let mut gate = Gate::new("a moved cap", gpu);
+    let disc = &shapes::great()[0];
+    let subject = Subject::placed(disc, &POLE_EDGE, EdgeKind::Geodesic);
+    gate.check(&subject, &BARE[8..9]);
+    gate.finish();
+}
+
+/// From amid tall walls, pixels met slivers between cut and straight columns, where depth is ill-defined:
+/// one wrong at (159, 98), 1.1 m above the edge of Natural Earth's hole at the south pole.
+#[test]
+fn no_pixel_meets_a_sliver() {
+    let Some(gpu) = gpu() else { return };
+    let mut gate = Gate::new("slivers", gpu);
+    let mut antarctica = real::countries().swap_remove(0);
+    for _ in 0..2 {
+        antarctica.foci.lift_m += 0.1;
+        gate.check(&antarctica, &HIGH_AND_LOW[3..4]);
+    }
+    gate.finish();
+}
+
+/// 50 m above the point where the forty slices of a pie meet, looking 30° down, walls from −11 to 9 km:
+/// all walls between slices are seen exactly edge-on. The stencil paints slice 16 at (200, 56), 26 px
+/// outside the pie; winding is right, and so are the slices around. As with slivers, a wall that has no
+/// width on the screen but covers a pixel's centre has no defined depth there.
+#[test]
+#[ignore = "known issue: one pixel wrong where walls are seen exactly edge-on and the stencil counts"]
+fn slices_seen_from_their_common_vertex() {
+    let Some(gpu) = gpu() else { return };
+    let mut gate = Gate::new("edge-on slices", gpu);
+    let pie = &shapes::many()[2];
+    for placement in &PLACEMENTS {
+        let subject = Subject::placed(pie, placement, EdgeKind::Geodesic);
+        gate.check(&subject, &HIGH_AND_LOW[8..9]);
+    }
+    gate.finish();
+}
