@@ -105,25 +105,34 @@ impl Patch {
     }
 
     /// A column from bottom to top. It is cut above and below the eye where its ends stand too far
-    /// away, at heights that depend on the column and the eye alone.
+    /// away, or far from the ellipsoid that they are raised from, at heights that depend on the column and
+    /// the eye alone.
     fn add_column(&mut self, surface_m: DVec3, sight: &Sight) -> Column {
         let base = self.vertices.len() as u32;
         self.vertices.push(encode(surface_m));
         let distance_m = surface_m.distance(sight.eye_ecef_m);
         let bottom_m = sight.extrusion.bottom_at_m(distance_m);
         let top_m = sight.extrusion.top_at_m(distance_m);
-        let seen_from_m = sight.distance_to_wall_m(surface_m, surface_m);
+        let reach_m = REACH * sight.distance_to_wall_m(surface_m, surface_m);
         let middle_m = sight.nearest_surface_height_m();
         let normal = sight.ellipsoid.normal_at_surface(surface_m);
+        // Within half the slack there is no surface.
+        let inset_m = 0.5 * sight.extrusion.slack_m(distance_m);
+        let ends_m = [
+            (middle_m - reach_m, bottom_m, bottom_m + inset_m),
+            (middle_m + reach_m, top_m, top_m - inset_m),
+        ];
         let mut corners = vec![4 * base + BOTTOM];
-        for cut_m in [
-            middle_m - REACH * seen_from_m,
-            middle_m + REACH * seen_from_m,
-        ] {
-            if cut_m > bottom_m + 1.0 && cut_m < top_m - 1.0 {
-                corners.push(4 * self.vertices.len() as u32 + AS_IS);
-                self.vertices.push(encode(surface_m + normal * cut_m));
-            }
+        for (cut_m, end_m, near_end_m) in ends_m {
+            let cut_m = if cut_m > bottom_m + 1.0 && cut_m < top_m - 1.0 {
+                cut_m
+            } else if end_m.abs() > reach_m {
+                near_end_m
+            } else {
+                continue;
+            };
+            corners.push(4 * self.vertices.len() as u32 + AS_IS);
+            self.vertices.push(encode(surface_m + normal * cut_m));
         }
         corners.push(4 * base + TOP);
         Column { base, corners }
@@ -202,6 +211,7 @@ impl Limits {
         let bottom_m = sight.extrusion.bottom_at_m(distance_m);
         let middle_m = sight.nearest_surface_height_m();
         let reach_m = (top_m - middle_m).max(middle_m - bottom_m);
+        let reach_m = reach_m.max(top_m.abs()).max(bottom_m.abs());
         let ellipsoid = sight.ellipsoid;
         // e′²: flat walls with skew end normals miss the edge by e′²·cos²φ·(s/R)·H/8.
         let skew = (ellipsoid.a_m / ellipsoid.b_m).powi(2) - 1.0;

@@ -36,7 +36,8 @@ pub(crate) struct Extrusion {
 }
 
 impl Extrusion {
-    fn slack_m(&self, distance_m: f64) -> f64 {
+    /// What is added for a host's depth steps, metres, at a distance from the eye.
+    pub(crate) fn slack_m(&self, distance_m: f64) -> f64 {
         let [constant, linear, quadratic] = self.slack;
         (constant + distance_m * (linear + distance_m * quadratic)).min(self.limit_m)
     }

@@ -2,14 +2,13 @@
 
 use std::sync::Arc;
 
-use wgpu::util::DeviceExt as _;
-
 use crate::{
     error::RendererError,
     frame::code::{Mantissa, PlaneSums},
     frame::edge_draws::LayerEdges,
     frame::layers::{Layer, Layering, Styled},
     frame::placed::PatternPlace,
+    gpu::filled_buffer::FilledBuffer as _,
     gpu::planes::Planes,
     gpu::style_table::{StyleSource, StyleTable, edges_of},
     options::CountTechnique,
@@ -132,7 +131,7 @@ fn table(device: &wgpu::Device, layer: &Layer, styled: &[Styled<'_>]) -> wgpu::B
         let style = &styled[fill.mesh].styles[fill.fill as usize];
         bytes.extend_from_slice(bytemuck::bytes_of(&style.solid_color()));
     }
-    device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+    device.filled_buffer(&wgpu::util::BufferInitDescriptor {
         label: Some("globefill layer"),
         contents: &bytes,
         usage: wgpu::BufferUsages::STORAGE,

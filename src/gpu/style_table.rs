@@ -1,12 +1,11 @@
 //! How the fills of a layer look, as resolve_styled.wgsl reads it.
 
-use wgpu::util::DeviceExt as _;
-
 use crate::{
     error::RendererError,
     frame::edge_draws::LayerEdges,
     frame::layers::{FillOf, Layer, Styled},
     frame::placed::PatternPlace,
+    gpu::filled_buffer::FilledBuffer as _,
     gpu::image_arrays::{ImageArrays, ImageSlot},
     hatch::HatchKind,
     image_fill::{ImageFill, Placement, Wrap},
@@ -154,7 +153,7 @@ impl StyleTable {
             record.pattern[3] = slot.map_or(arrays[0], |slot| slot.array);
         }
         Some(Self {
-            styles: device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            styles: device.filled_buffer(&wgpu::util::BufferInitDescriptor {
                 label: Some("globefill styles"),
                 contents: bytemuck::cast_slice(&records),
                 usage: wgpu::BufferUsages::STORAGE,

@@ -1,7 +1,7 @@
 //! Drawing the sensors of a renderer.
 
 use glam::UVec2;
-use wgpu::util::{BufferInitDescriptor, DeviceExt as _};
+use wgpu::util::BufferInitDescriptor;
 
 use super::Renderer;
 use crate::{
@@ -11,6 +11,7 @@ use crate::{
     frame::sight::Sight,
     frame::sight_uniform::SightUniform,
     frame_stats::FrameStats,
+    gpu::filled_buffer::FilledBuffer as _,
     gpu::sensor_pipelines::{SensorKey, SensorPipelines, Shown},
     gpu::sensor_view::{self, SensorFrame, SensorView},
     options::Frame,
@@ -160,7 +161,7 @@ impl Renderer {
             return Ok(());
         };
         let question = [pixel.x, pixel.y, 0, 0];
-        let answer = self.device.create_buffer_init(&BufferInitDescriptor {
+        let answer = self.device.filled_buffer(&BufferInitDescriptor {
             label: Some("globefill answer"),
             contents: bytemuck::cast_slice(&question),
             usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,

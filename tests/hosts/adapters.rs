@@ -1,8 +1,6 @@
 //! Hosts with poorer adapters and with bad frames: the same picture, or a typed error.
 
-mod common;
-
-use common::{
+use crate::common::{
     camera::Pose,
     draw::IdPainter,
     figure::Figure,
