@@ -15,9 +15,11 @@ use crate::{
     gpu::fixed_point::{FixedVertex, encode},
 };
 
-/// Ends of walls and columns lie within this many times the distance at which they are seen: single
-/// precision then displaces what is between by less than 0.01 px of 10⁻³ rad.
+/// Ends of walls and columns lie within this many times the distance at which they are seen, or at which
+/// pixels would span `REACH_PIXEL_RAD` if that is less: single precision then displaces what is between by
+/// less than 0.01 px.
 const REACH: f64 = 150.0;
+const REACH_PIXEL_RAD: f64 = 1e-3;
 /// Halvings of one chord; 2⁻³² of the longest is below the vertex encoding.
 const MAX_HALVINGS: u32 = 32;
 
@@ -113,7 +115,7 @@ impl Patch {
         let distance_m = surface_m.distance(sight.eye_ecef_m);
         let bottom_m = sight.extrusion.bottom_at_m(distance_m);
         let top_m = sight.extrusion.top_at_m(distance_m);
-        let reach_m = REACH * sight.distance_to_wall_m(surface_m, surface_m);
+        let reach_m = reach_at_m(sight, sight.distance_to_wall_m(surface_m, surface_m));
         let middle_m = sight.nearest_surface_height_m();
         let normal = sight.ellipsoid.normal_at_surface(surface_m);
         // Within half the slack there is no surface.
@@ -193,6 +195,11 @@ impl Column {
     }
 }
 
+/// How far, metres, walls and columns may reach that are seen from a given distance.
+fn reach_at_m(sight: &Sight, distance_m: f64) -> f64 {
+    REACH * sight.pixel.distance_m(REACH_PIXEL_RAD, distance_m)
+}
+
 /// What a chord may be where it is seen from a given distance.
 struct Limits {
     tolerance_m: f64,
@@ -217,10 +224,10 @@ impl Limits {
         let skew = (ellipsoid.a_m / ellipsoid.b_m).powi(2) - 1.0;
         Self {
             tolerance_m,
-            length_m: REACH * distance_m,
+            length_m: reach_at_m(sight, distance_m),
             area_m2: 8.0 * ellipsoid.b_m * tolerance_m / skew.abs(),
             wall_m: top_m - bottom_m,
-            columns_reach_too_far: reach_m > REACH * distance_m,
+            columns_reach_too_far: reach_m > reach_at_m(sight, distance_m),
         }
     }
 
@@ -294,6 +301,7 @@ mod tests {
     use super::*;
     use crate::{
         fill_mesh::{BoundaryVertex, Bounds},
+        frame::lens::Pixel,
         geodetic::LonLat,
         options::{Camera, Frame, HeightRange, RendererOptions},
         region::EdgeKind,
@@ -374,7 +382,7 @@ mod tests {
             LonLat::new(11.2, 47.3),
         );
         let mut sight = looking_down(&mesh, 100.0, HeightRange::default());
-        sight.pixel_rad = 1e-9;
+        sight.pixel = Pixel::Angle(1e-9);
         let mut patch = Patch::default();
         patch.refine_arc(&mesh, 0, &sight);
         assert!(patch.vertices.len() < 200_000, "{}", patch.vertices.len());

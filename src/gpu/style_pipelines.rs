@@ -5,8 +5,12 @@ use std::collections::HashMap;
 use glam::UVec2;
 
 use crate::{
-    gpu::edge_pipelines::EdgePipelines, gpu::edge_view::edge_target, gpu::pipelines::layout,
-    gpu::style_table::Needs, gpu::surface_binding::surface_layout, options::RendererOptions,
+    gpu::edge_pipelines::EdgePipelines,
+    gpu::edge_view::edge_target,
+    gpu::pipelines::{layout, parallel_constants},
+    gpu::style_table::Needs,
+    gpu::surface_binding::surface_layout,
+    options::RendererOptions,
     shaders,
 };
 
@@ -22,7 +26,8 @@ pub(crate) struct StylePipelines {
     pub edges: Option<EdgePipelines>,
     pipeline_layout: wgpu::PipelineLayout,
     module: wgpu::ShaderModule,
-    made: HashMap<Needs, wgpu::RenderPipeline>,
+    /// By what styles need and whether lines of sight are parallel.
+    made: HashMap<(Needs, bool), wgpu::RenderPipeline>,
 }
 
 impl StylePipelines {
@@ -70,26 +75,27 @@ impl StylePipelines {
     }
 
     /// Compiles the pipeline if it does not exist yet.
-    pub(crate) fn ensure(&mut self, device: &wgpu::Device, needs: Needs) {
-        if !self.made.contains_key(&needs) {
-            let pipeline = self.make(device, needs);
-            self.made.insert(needs, pipeline);
+    pub(crate) fn ensure(&mut self, device: &wgpu::Device, needs: Needs, parallel: bool) {
+        if !self.made.contains_key(&(needs, parallel)) {
+            let pipeline = self.make(device, needs, parallel);
+            self.made.insert((needs, parallel), pipeline);
         }
     }
 
     /// A pipeline that `ensure` was called for.
-    pub(crate) fn get(&self, needs: Needs) -> Option<&wgpu::RenderPipeline> {
-        self.made.get(&needs)
+    pub(crate) fn get(&self, needs: Needs, parallel: bool) -> Option<&wgpu::RenderPipeline> {
+        self.made.get(&(needs, parallel))
     }
 
-    fn make(&self, device: &wgpu::Device, needs: Needs) -> wgpu::RenderPipeline {
+    fn make(&self, device: &wgpu::Device, needs: Needs, parallel: bool) -> wgpu::RenderPipeline {
         let samples = self.options.sample_count;
         let entry = if samples > 1 {
             "fs_styled_sample"
         } else {
             "fs_styled"
         };
-        let constants = [("NEEDS", f64::from(needs))];
+        let [parallel] = parallel_constants(parallel);
+        let constants = [("NEEDS", f64::from(needs)), parallel];
         let options = wgpu::PipelineCompilationOptions {
             constants: &constants,
             ..Default::default()

@@ -27,6 +27,8 @@ pub(crate) struct StyleView {
     layers: Vec<Option<StyledLayer>>,
     /// Which layer tables are bound.
     revision: (u64, CountTechnique),
+    /// Whether lines of sight are parallel.
+    parallel: bool,
 }
 
 struct StyledLayer {
@@ -45,6 +47,8 @@ pub(crate) struct StyleFrame<'a> {
     pub revision: (u64, CountTechnique),
     pub reference: Reference,
     pub uniform: SightUniform,
+    /// Whether lines of sight are parallel.
+    pub parallel: bool,
     pub edges: EdgeFrame<'a>,
     /// The meshes, in the order they are drawn in.
     pub subjects: &'a [EdgeSubject<'a>],
@@ -60,6 +64,7 @@ impl StyleView {
             edge_cost: EdgeCost::default(),
             layers: Vec::new(),
             revision: (0, CountTechnique::default()),
+            parallel: false,
         }
     }
 
@@ -77,6 +82,7 @@ impl StyleView {
             .iter()
             .map(|place: &PatternPlace| place.seen_from(&with.reference))
             .collect();
+        self.parallel = with.parallel;
         let bytes = self.surface.write(device, queue, &with.uniform);
         let contents = bytemuck::cast_slice(&placed);
         let (uploaded, moved) = self.places.write(device, queue, contents);
@@ -171,7 +177,7 @@ impl StyleView {
         let (Some(styled), Some(surface)) = (styled, self.surface.group()) else {
             return;
         };
-        let Some(pipeline) = pipelines.get(styled.needs) else {
+        let Some(pipeline) = pipelines.get(styled.needs, self.parallel) else {
             return;
         };
         pass.set_pipeline(pipeline);

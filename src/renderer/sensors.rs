@@ -87,6 +87,7 @@ impl Renderer {
         let key = SensorKey {
             shown,
             needs: set.needs(),
+            parallel: sight.parallel,
         };
         pipelines.ensure(&self.device, key);
         let sensors = view
@@ -94,7 +95,7 @@ impl Renderer {
             .get_or_insert_with(|| SensorView::new(&self.device));
         sensors.key = Some(key);
         if !sensors.holds(frame, set) {
-            let reference = Reference::new(set.ellipsoid(), frame.camera.eye_ecef_m);
+            let reference = Reference::new(set.ellipsoid(), sight.eye_ecef_m);
             let depth = self.options.depth;
             let with = SensorFrame {
                 set,

@@ -19,6 +19,8 @@ pub struct Pose {
     pub fov_deg: f64,
     /// Height of the picture, metres, where lines of sight are parallel; the field of view is then none.
     pub parallel_m: Option<f64>,
+    /// How far behind that place the eye stands, metres along the view axis.
+    pub behind_m: f64,
     /// Where the view axis passes through the picture: from its middle, halves of its width and height.
     pub aside: DVec2,
 }
@@ -32,6 +34,7 @@ impl Pose {
             pitch_deg: -90.0,
             fov_deg: 60.0,
             parallel_m: None,
+            behind_m: 0.0,
             aside: DVec2::ZERO,
         }
     }
@@ -42,6 +45,11 @@ impl Pose {
             parallel_m: Some(height_m),
             ..self
         }
+    }
+
+    /// The same direction from that far behind.
+    pub fn back_by(self, behind_m: f64) -> Self {
+        Self { behind_m, ..self }
     }
 
     pub fn turned(self, heading_deg: f64, pitch_deg: f64) -> Self {
@@ -161,7 +169,7 @@ impl Lens {
         // A host works in f32: the matrix it has is the rounded one.
         let f32_of = |v: DVec2| v.as_vec2().as_dvec2();
         Self {
-            eye_m: figure.ecef(pose.at, pose.height_m),
+            eye_m: figure.ecef(pose.at, pose.height_m) - forward * pose.behind_m,
             view_from_ecef: DMat3::from_cols(right, above, -forward).transpose(),
             scale: f32_of(DVec2::new(focal / aspect, focal)),
             aside: f32_of(pose.aside),

@@ -8,5 +8,6 @@ mod adapters;
 mod gate;
 mod lenses;
 mod lost_device;
+mod parallel;
 mod underground;
 mod viewports;

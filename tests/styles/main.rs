@@ -13,6 +13,7 @@ mod edges;
 mod hosts;
 mod images;
 mod ink;
+mod parallel;
 mod ramps;
 mod refusals;
 mod seams;
