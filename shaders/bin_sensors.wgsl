@@ -23,6 +23,7 @@ fn cs_range(@builtin(global_invocation_id) id: vec3<u32>) {
         }
     }
     var tile: Tile;
+    tile.nearest = 1.0;
     if most >= least {
         let distances = vec2<f32>(distance_of(least), distance_of(most));
         tile.nearest = min(distances.x, distances.y);
@@ -36,12 +37,13 @@ fn ball_of(corner: vec2<u32>, end: vec2<u32>, tile: Tile) -> vec4<f32> {
     let edges = array<vec2<u32>, 4>(
         corner, vec2<u32>(end.x, corner.y), vec2<u32>(corner.x, end.y), end,
     );
-    let middle = ray_at(0.5 * vec2<f32>(corner + end)) * (0.5 * (tile.nearest + tile.farthest));
+    let halfway = 0.5 * (tile.nearest + tile.farthest);
+    let middle = from_eye_at(0.5 * vec2<f32>(corner + end), halfway);
     var radius = 0.0;
     for (var k = 0; k < 4; k += 1) {
-        let ray = ray_at(vec2<f32>(edges[k]));
-        radius = max(radius, length(ray * tile.nearest - middle));
-        radius = max(radius, length(ray * tile.farthest - middle));
+        let at_px = vec2<f32>(edges[k]);
+        radius = max(radius, length(from_eye_at(at_px, tile.nearest) - middle));
+        radius = max(radius, length(from_eye_at(at_px, tile.farthest) - middle));
     }
     // What is added is for rounding.
     return vec4<f32>(middle, 1.001 * radius + 1e-5 * length(middle));
@@ -74,17 +76,18 @@ fn cs_bin_blocks(@builtin(global_invocation_id) id: vec3<u32>) {
     let first = BLOCK * block_at(id.x);
     let last = min(first + BLOCK, sight.tiles.xy);
     var block: Tile;
+    block.nearest = 1.0;
     for (var y = first.y; y < last.y; y += 1u) {
         for (var x = first.x; x < last.x; x += 1u) {
             let tile = tiles[y * sight.tiles.x + x];
-            if tile.farthest > 0.0 {
-                let none = block.farthest == 0.0;
-                block.nearest = select(min(block.nearest, tile.nearest), tile.nearest, none);
-                block.farthest = max(block.farthest, tile.farthest);
+            if shows_surface(tile) {
+                let some = shows_surface(block);
+                block.nearest = select(tile.nearest, min(block.nearest, tile.nearest), some);
+                block.farthest = select(tile.farthest, max(block.farthest, tile.farthest), some);
             }
         }
     }
-    if block.farthest > 0.0 {
+    if shows_surface(block) {
         let ball = ball_of(TILE * first, min(TILE * last, sight.size.xy), block);
         let place = place_of(ball.xyz, ball.w);
         var list: Cursor;
@@ -119,7 +122,7 @@ fn cs_bin_tiles(@builtin(global_invocation_id) id: vec3<u32>) {
     tile.covering = block.covering;
     let listed = block.partly != UNLISTED;
     let asked = select(sight.counts.x, block.partly, listed);
-    if tile.farthest > 0.0 {
+    if shows_surface(tile) {
         let ball = ball_of(TILE * at, min(TILE * (at + 1u), sight.size.xy), tile);
         let place = place_of(ball.xyz, ball.w);
         tile.strays = select(0u, 1u, strays(place, ball.w));

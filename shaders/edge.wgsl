@@ -16,7 +16,8 @@ struct EdgeSight {
     foot: vec4<i32>,
     foot_fraction: vec4<i32>,
     foot_remainder: vec4<f32>,
-    // The view axis; w: the most metres that a pixel spans across it at unit distance.
+    // The view axis; w: the most metres that a pixel spans across it at unit distance, or at any where
+    // lines of sight are parallel.
     axis: vec4<f32>,
     // Lowest and highest surface, m.
     surface: vec4<f32>,
@@ -105,6 +106,14 @@ fn id_of(piece_plus_one: u32) -> u32 {
 // farther than they would on a plane seen all over like here: by 1 / (1 - share of the way to the horizon),
 // as far as that is drawn; where the ground falls away, no farther than the curved ground allows.
 fn spread_m(from_eye: vec3<f32>, up: vec3<f32>, px: f32) -> f32 {
+    if PARALLEL {
+        // The ground falls away from under its tangent plane by the square of the way.
+        let sine = max(-dot(sight.ray.xyz, up), sight.bounds.w);
+        let across = px * edge_sight.axis.w;
+        let falling = 1.0 - 2.0 * across / (sight.ellipsoid.w * sine * sine);
+        let level = 2.0 * across / (sine * (1.0 + sqrt(max(falling, 0.0))));
+        return min(level, sqrt(2.0 * across * sight.ellipsoid.w));
+    }
     let distance = length(from_eye);
     let sine = max(-dot(from_eye, up) / distance, sight.bounds.w);
     let across = px * edge_sight.axis.w * distance;
@@ -121,7 +130,7 @@ fn reach_m(vertex: vec4<i32>, up: vec3<f32>, reach: vec2<f32>) -> f32 {
     let low = spread_m(surface + up * edge_sight.surface.x, up, px);
     let high = spread_m(surface + up * edge_sight.surface.y, up, px);
     // The margin is for heights and curvature, which spread feet, and for rounding.
-    return 1.1 * (reach.x + max(low, high)) + 2.0 * edge_sight.axis.w * length(surface);
+    return 1.1 * (reach.x + max(low, high)) + 2.0 * edge_sight.axis.w * scale_at(length(surface));
 }
 
 // Whether the ground hides all surface within `reach` of a vertex: the eye is so far below its horizon
@@ -129,8 +138,10 @@ fn reach_m(vertex: vec4<i32>, up: vec3<f32>, reach: vec2<f32>) -> f32 {
 fn hidden(vertex: vec4<i32>, up: vec3<f32>, reach: f32) -> bool {
     let surface = relative_m(vertex);
     let distance = length(surface);
-    let sine = -dot(surface, up) / distance;
-    let relief = edge_sight.surface.y - edge_sight.surface.x + frame.heights.z * distance + 100.0;
+    let line = sight_line(surface);
+    let sine = -dot(line, up) / length(line);
+    let lowest = min(edge_sight.surface.x, frame.heights.y);
+    let relief = edge_sight.surface.y - lowest + frame.heights.z * distance + 100.0;
     let radius = sight.ellipsoid.w;
     return sine < -1.2 * (reach / radius + sqrt(2.0 * relief / radius)) - 0.01;
 }
@@ -186,7 +197,7 @@ fn prism(chord: Chord, corner: u32) -> EdgeVertex {
     var out: EdgeVertex;
     out.position = frame.clip_from_relative * vec4<f32>(position, 1.0);
     // Clipped at the near distance, before which nothing is seen, and nowhere else.
-    out.position.z = frame.slack.w;
+    out.position.z = select(frame.slack.w, 0.5, PARALLEL);
     out.start = vec4<f32>(from_foot_m(chord.a), length_m);
     out.end = vec4<f32>(from_foot_m(chord.b), reach.x);
     out.ahead = vec4<f32>(ahead, reach.y);
@@ -268,7 +279,7 @@ fn nearest_on_ground(in: EdgeVertex, foot: vec3<f32>, span: Span) -> Nearest {
 fn nearest_on_screen(in: EdgeVertex, foot: vec3<f32>, span: Span, distance: f32) -> Nearest {
     let from_start = foot - in.start.xyz;
     let side = dot(from_start, in.left.xyz);
-    let receding = change_of(edge_sight.axis.xyz, span) / distance;
+    let receding = select(change_of(edge_sight.axis.xyz, span) / distance, vec2<f32>(0.0), PARALLEL);
     let slope = change_of(in.left.xyz, span) - side * receding;
     var across = length(slope);
     // To the nearest point of the chord's line, in pixels and on the ground, where lengths are greater by
@@ -287,7 +298,8 @@ fn nearest_on_screen(in: EdgeVertex, foot: vec3<f32>, span: Span, distance: f32)
         // The same bits for all chords that end there.
         let to_end = select(foot - in.end.xyz, from_start, passed < 0.0);
         let end_distance = max(distance - dot(edge_sight.axis.xyz, to_end), distance / 64.0);
-        let off_px = length(pixels_of(to_end, span)) * distance / end_distance;
+        let nearer_end = select(distance / end_distance, 1.0, PARALLEL);
+        let off_px = length(pixels_of(to_end, span)) * nearer_end;
         beyond_px = sqrt(max(off_px * off_px - dot(aim_px, aim_px), 0.0));
         off = length(to_end);
         across = off / off_px;
@@ -302,10 +314,10 @@ fn fs_edge(in: EdgeVertex) -> EdgeTexel {
     if is_sky(depth) {
         discard;
     }
-    let ray = ray_at(vec2<f32>(pixel) + sample_px(0u));
+    let at_px = vec2<f32>(pixel) + sample_px(0u);
     let distance = distance_of(depth);
-    let place = place_of(ray * distance, 0.0);
-    let span = span_of(ray, distance, place);
+    let place = place_of(from_eye_at(at_px, distance), 0.0);
+    let span = span_of(ray_at(at_px), scale_at(distance), place);
     // At the centre of the pixel, on ground as level as the sample's.
     let aside_px = vec2<f32>(0.5) - sample_px(0u);
     let foot = place.from_foot + aside_px.x * span.right + aside_px.y * span.down;

@@ -40,14 +40,14 @@ fn vs_flat(@builtin(vertex_index) corner: u32, @builtin(instance_index) slot: u3
     let end = middle_m(vertices[slot + 1u], up);
     let way = between_m(vertices[slot], vertices[slot + 1u]);
     let length_m = length(way);
-    let behind = dot(start, up) > 0.0 && dot(end, up) > 0.0;
+    let behind = dot(sight_line(start), up) > 0.0 && dot(sight_line(end), up) > 0.0;
     if first.x == NO_CHORD || ids.x == ids.y || max(reach.x, reach.y) <= 0.0
         || length_m < SHORTEST_M || behind {
         return flat_nowhere();
     }
     let clip_start = frame.clip_from_relative * vec4<f32>(start, 1.0);
     let clip_end = frame.clip_from_relative * vec4<f32>(end, 1.0);
-    if min(clip_start.w, clip_end.w) <= frame.slack.w {
+    if !PARALLEL && min(clip_start.w, clip_end.w) <= frame.slack.w {
         return flat_nowhere();
     }
     let a = pixels_at(clip_start);
@@ -84,8 +84,8 @@ fn vs_flat(@builtin(vertex_index) corner: u32, @builtin(instance_index) slot: u3
 @fragment
 fn fs_flat(in: FlatVertex) -> EdgeTexel {
     let depth = depth_at(vec2<u32>(in.position.xy), 0u);
-    let ray = ray_at(in.position.xy);
-    if is_sky(depth) || strays(place_of(ray * distance_of(depth), 0.0), 0.0) {
+    let from_eye = from_eye_at(in.position.xy, distance_of(depth));
+    if is_sky(depth) || strays(place_of(from_eye, 0.0), 0.0) {
         discard;
     }
     let from_start = in.position.xy - in.ends.xy;

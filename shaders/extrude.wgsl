@@ -4,7 +4,8 @@
 // With vertices in arc order the wall input (i, i + 1, i + 1) is implied by i and takes no memory.
 
 struct Frame {
-    // Clip space from metres relative to the eye, along ECEF axes.
+    // From metres relative to the eye, along ECEF axes: x and y of clip space, distance along the view
+    // axis, w. Where lines of sight are parallel a point near the surface stands for the eye.
     clip_from_relative: mat4x4<f32>,
     // The eye in steps of 1/128 m.
     eye: vec4<i32>,
@@ -20,7 +21,7 @@ struct Frame {
     // Added above and below for the host's depth steps: x + y * distance + z * distance^2, m.
     // w: distance of the near plane, m.
     slack: vec4<f32>,
-    // Depth before the division by w: x * w + y.
+    // Depth before the division by w: x * distance + y.
     depth: vec4<f32>,
 }
 
@@ -77,8 +78,10 @@ fn extruded_m(vertex: vec4<i32>, drawn: u32) -> vec3<f32> {
 
 fn clip(vertex: vec4<i32>, drawn: u32) -> vec4<f32> {
     var position = frame.clip_from_relative * vec4<f32>(extruded_m(vertex, drawn), 1.0);
-    // Far away z and w differ by little: from w alone, depth is rounded once instead of three times.
-    position.z = frame.depth.x * position.w + frame.depth.y;
+    // Far away z and w differ by little: from w alone, which is the distance of perspectives, depth is
+    // rounded once instead of three times.
+    let distance = select(position.w, position.z, PARALLEL);
+    position.z = frame.depth.x * distance + frame.depth.y;
     return position;
 }
 

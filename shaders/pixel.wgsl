@@ -14,17 +14,18 @@ fn up_at(place: Place) -> vec3<f32> {
     return normalize(sight.foot_gradient.xyz + m * place.from_foot);
 }
 
-// The surface is taken as level at `place`, seen along `ray` from `distance`, and on terrain as no more
+// The surface is taken as level at `place`, seen along `ray`, and on terrain as no more
 // oblique than sight.bounds.w (a sine): slopes are steeper than the level ground they stand on. That feet
 // are nearer to each other than what stands on them, a part in 700 on the highest mountain, is left out.
-fn span_of(ray: vec3<f32>, distance: f32, place: Place) -> Span {
+// `scale` is scale_at the distance.
+fn span_of(ray: vec3<f32>, scale: f32, place: Place) -> Span {
     let up = up_at(place);
     let sine = abs(dot(ray, up)) / length(ray);
     let rise = max(sine, sight.bounds.w) * length(ray);
     let along = ray * select(1.0, -1.0, dot(ray, up) < 0.0) / rise;
     return Span(
-        distance * (sight.right.xyz - along * dot(sight.right.xyz, up)),
-        distance * (sight.down.xyz - along * dot(sight.down.xyz, up)),
+        scale * (sight.right.xyz - along * dot(sight.right.xyz, up)),
+        scale * (sight.down.xyz - along * dot(sight.down.xyz, up)),
         sine,
     );
 }

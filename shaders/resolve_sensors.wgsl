@@ -21,7 +21,7 @@ fn vs_block(
     @builtin(instance_index) index: u32,
 ) -> BlockVertex {
     let gaps = sight.counts.w != 0u;
-    let drawn = blocks[index].farthest > 0.0
+    let drawn = shows_surface(blocks[index])
         && (gaps || blocks[index].covering + blocks[index].partly > 0u);
     let corner = block_at(index) + vec2<u32>(vertex & 1u, vertex >> 1u);
     let at_px = vec2<f32>(min(TILE * BLOCK * corner, sight.size.xy));
@@ -48,8 +48,8 @@ fn sums_at(pixel: vec2<u32>, sample: u32, block: u32) -> Sums {
     let listed = lister.partly != UNLISTED;
     let asked = select(sight.counts.x, lister.partly, listed);
     if asked + lister.strays > 0u {
-        let ray = ray_at(vec2<f32>(pixel) + sample_px(sample));
-        let place = place_of(ray * distance_of(depth), 0.0);
+        let at_px = vec2<f32>(pixel) + sample_px(sample);
+        let place = place_of(from_eye_at(at_px, distance_of(depth)), 0.0);
         if strays(place, 0.0) {
             discard;
         }

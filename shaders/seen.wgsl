@@ -8,7 +8,7 @@ struct Seen {
     from_foot: vec3<f32>,
     // Along the normal there, about as long as the ellipsoid's radius.
     normal: vec3<f32>,
-    // The line of sight, at unit distance along the view axis; how far it goes.
+    // The line of sight, at unit distance along the view axis; how much larger pixels are than there.
     ray: vec3<f32>,
     along: f32,
     // Steps of the line of sight to the pixel to the right and below that stay level with the surface are
@@ -23,8 +23,9 @@ struct Seen {
 fn seen_at(at_px: vec2<f32>, depth: f32) -> Seen {
     var seen: Seen;
     seen.ray = ray_at(at_px);
-    seen.along = distance_of(depth);
-    seen.from_eye = seen.ray * seen.along;
+    let distance = distance_of(depth);
+    seen.along = scale_at(distance);
+    seen.from_eye = from_eye_at(at_px, distance);
     let a = sight.ellipsoid.x;
     let squash = sight.ellipsoid.y;
     let tau_eye = sight.ellipsoid.z;

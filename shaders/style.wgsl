@@ -100,7 +100,7 @@ fn faded(style: u32, seen: Seen) -> f32 {
         let fade = styles[style].fade;
         let sine = styles[style].fade_sine;
         let pixel = seen.along * length(sight.down.xyz);
-        left = saturate((length(seen.from_eye) - fade.x) * fade.y)
+        left = saturate((distance_from_eye(seen.from_eye) - fade.x) * fade.y)
             * saturate((pixel - fade.z) * fade.w)
             * saturate((sine_of(seen) - sine.x) * sine.y);
     }

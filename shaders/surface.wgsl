@@ -5,11 +5,13 @@
 // Metres along ECEF axes.
 struct Sight {
     // Ray at unit distance along the view axis through the middle of the picture, and its change per
-    // pixel to the right and down.
+    // pixel to the right and down; where lines of sight are parallel, their direction, and how their start
+    // changes. w: from the eye to the host's eye.
     ray: vec4<f32>,
     right: vec4<f32>,
     down: vec4<f32>,
-    // Depth d lies at distance y / ((d - z) - x) along the view axis; w is the depth of the sky.
+    // Depth d lies at distance y / ((d - z) - x) along the view axis, or ((d - z) - x) / y where lines of
+    // sight are parallel; w is the depth of the sky.
     depth: vec4<f32>,
     // x: equatorial radius a; y: (a/b)^2; z: tau of the eye, see place_of; w: polar radius b.
     ellipsoid: vec4<f32>,
@@ -68,8 +70,39 @@ struct Place {
 }
 
 fn ray_at(at_px: vec2<f32>) -> vec3<f32> {
+    if PARALLEL {
+        return sight.ray.xyz;
+    }
     let from_middle = at_px - 0.5 * vec2<f32>(sight.size.xy);
     return sight.ray.xyz + from_middle.x * sight.right.xyz + from_middle.y * sight.down.xyz;
+}
+
+// What lies at a distance along the view axis, from the eye.
+fn from_eye_at(at_px: vec2<f32>, distance: f32) -> vec3<f32> {
+    let along = ray_at(at_px) * distance;
+    if PARALLEL {
+        let from_middle = at_px - 0.5 * vec2<f32>(sight.size.xy);
+        return along + (from_middle.x * sight.right.xyz + from_middle.y * sight.down.xyz);
+    }
+    return along;
+}
+
+// How much larger what a pixel spans is than at unit distance.
+fn scale_at(distance: f32) -> f32 {
+    return select(distance, 1.0, PARALLEL);
+}
+
+// The way that light takes to a place, which is its place relative to the eye, or of some length.
+fn sight_line(from_eye: vec3<f32>) -> vec3<f32> {
+    return select(from_eye, sight.ray.xyz, PARALLEL);
+}
+
+// How far a place is from the host's eye.
+fn distance_from_eye(from_eye: vec3<f32>) -> f32 {
+    if PARALLEL {
+        return length(from_eye - vec3<f32>(sight.ray.w, sight.right.w, sight.down.w));
+    }
+    return length(from_eye);
 }
 
 fn is_sky(depth: f32) -> bool {
@@ -78,7 +111,8 @@ fn is_sky(depth: f32) -> bool {
 
 // Distance along the view axis.
 fn distance_of(depth: f32) -> f32 {
-    return sight.depth.y / ((depth - sight.depth.z) - sight.depth.x);
+    let step = (depth - sight.depth.z) - sight.depth.x;
+    return select(sight.depth.y / step, step / sight.depth.y, PARALLEL);
 }
 
 // The surface point `from_eye`, known to `radius`.

@@ -10,7 +10,8 @@ struct Tile {
     page: u32,
     // Whether some of what its pixels show may stray from the surface.
     strays: u32,
-    // Nearest and farthest depth of its surface in distances along the view axis; 0 if there is only sky.
+    // Nearest and farthest depth of its surface in distances along the view axis; the nearest is farther
+    // than the farthest if there is only sky.
     nearest: f32,
     farthest: f32,
 }
@@ -22,6 +23,10 @@ const BLOCK: u32 = 8u;
 const UNLISTED: u32 = 0xffffffffu;
 // A list is a chain of pages of this many entries. Behind all pages stands the next of each.
 const PAGE: u32 = 32u;
+
+fn shows_surface(tile: Tile) -> bool {
+    return tile.nearest <= tile.farthest;
+}
 
 fn tile_at(index: u32) -> vec2<u32> {
     return vec2<u32>(index % sight.tiles.x, index / sight.tiles.x);

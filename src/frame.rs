@@ -5,6 +5,7 @@ pub(crate) mod edge_draws;
 pub(crate) mod edge_segments;
 pub(crate) mod edge_uniform;
 pub(crate) mod layers;
+pub(crate) mod lens;
 pub(crate) mod placed;
 pub(crate) mod reference;
 pub(crate) mod refine;

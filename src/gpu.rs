@@ -5,6 +5,7 @@ pub(crate) mod edge_pipelines;
 #[cfg(test)]
 mod edge_tests;
 pub(crate) mod edge_view;
+pub(crate) mod filled_buffer;
 pub(crate) mod fixed_function;
 pub(crate) mod fixed_point;
 pub(crate) mod gpu_mesh;

@@ -49,6 +49,17 @@
 //! # }
 //! ```
 //!
+//! # Hosts
+//!
+//! Perspectives from telescopes to 150° and orthographic projections, which may take turns from frame to
+//! frame; depth that runs either way, with or without a far plane, in 32-bit floats or 24 bits; the eye
+//! anywhere, below the surface too. See [`Camera::clip_from_view`] and [`RendererOptions::depth`]. A renderer
+//! draws any number of viewports in a frame, each with its [`View`]; a view follows the size of its window.
+//!
+//! When its device is lost, a host drops renderers and views and makes them again on a new one: from the same
+//! meshes, of which it may keep copies. Until it notices nothing of globefill panics; what wgpu then reports
+//! is for the host's handler of uncaptured errors.
+//!
 //! # Styles
 //!
 //! [`Renderer::set_style`] says how a fill looks: [`FillStyle`]. Plain colours, with opacity, highlight and

@@ -64,6 +64,15 @@ pub struct Camera {
     /// Rotation from ECEF axes to view axes (x right, y up, looking along −z). Orthonormal.
     pub view_from_ecef: DMat3,
     /// The host's projection, as used for its depth buffer: clip = `clip_from_view` · view.
+    ///
+    /// Either a perspective along −z (w = −z), or orthographic (w = 1), each of any width, off its middle or
+    /// mirrored, with or without a far plane. Where lines of sight are parallel the eye may be anywhere on
+    /// the view axis, and the near plane behind it; only [`Fade::distance_m`](crate::Fade) asks how far away
+    /// it is. What is sheared or has an oblique near plane is refused
+    /// ([`RendererError::Unsupported`](crate::RendererError)).
+    ///
+    /// A far plane needs `DEPTH_CLIP_CONTROL`, and in a perspective `CLIP_DISTANCES` too:
+    /// [`Renderer::wanted_features`](crate::Renderer::wanted_features).
     pub clip_from_view: DMat4,
 }
 

@@ -77,7 +77,8 @@ impl Renderer {
     ///
     /// Without `FLOAT32_BLENDABLE` winding sums are half floats and large scenes are counted by
     /// stencil, which needs `DEPTH32FLOAT_STENCIL8`. Without `DEPTH_CLIP_CONTROL` and
-    /// `CLIP_DISTANCES` a projection must not have a far plane.
+    /// `CLIP_DISTANCES` a perspective must not have a far plane, and without the former a projection must
+    /// not be orthographic.
     pub fn wanted_features() -> wgpu::Features {
         wgpu::Features::FLOAT32_BLENDABLE
             | FAR_PLANE_FEATURES

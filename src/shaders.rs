@@ -1,5 +1,6 @@
 //! The WGSL sources, put together as the pipelines use them.
 
+const HOST: &str = include_str!("../shaders/host.wgsl");
 const EXTRUDE: &str = include_str!("../shaders/extrude.wgsl");
 const FACE: &str = include_str!("../shaders/face.wgsl");
 const FACE_UNCLIPPED: &str = include_str!("../shaders/face_unclipped.wgsl");
@@ -41,9 +42,16 @@ const RESOLVE_SENSORS: &str = include_str!("../shaders/resolve_sensors.wgsl");
 /// Extrusion and counting; `unclipped` where depth has a far plane.
 pub fn count(unclipped: bool) -> String {
     if unclipped {
-        ["enable clip_distances;\n", EXTRUDE, FACE_UNCLIPPED, COUNT].concat()
+        [
+            "enable clip_distances;\n",
+            HOST,
+            EXTRUDE,
+            FACE_UNCLIPPED,
+            COUNT,
+        ]
+        .concat()
     } else {
-        [EXTRUDE, FACE, COUNT].concat()
+        [HOST, EXTRUDE, FACE, COUNT].concat()
     }
 }
 
@@ -69,6 +77,7 @@ pub fn resolve_styled(sample_count: u32, few: bool) -> String {
         planes(sample_count),
         LAYER,
         depth(sample_count),
+        HOST,
         SURFACE,
         SEEN,
         ARCTANGENT,
@@ -112,6 +121,7 @@ fn depth(sample_count: u32) -> &'static str {
 /// The distances to the nearest boundaries.
 pub fn edge(sample_count: u32) -> String {
     let parts = [
+        HOST,
         EXTRUDE,
         FACE,
         SIGHT,
@@ -129,6 +139,7 @@ pub fn bin_sensors(sample_count: u32) -> String {
     let depth = depth(sample_count);
     let parts = [
         SIGHT,
+        HOST,
         SURFACE,
         SENSOR,
         depth,
@@ -142,7 +153,15 @@ pub fn bin_sensors(sample_count: u32) -> String {
 
 /// How many sensors cover one pixel.
 pub fn count_sensors(sample_count: u32) -> String {
-    [SIGHT, SURFACE, SENSOR, depth(sample_count), COUNT_SENSORS].concat()
+    [
+        HOST,
+        SIGHT,
+        SURFACE,
+        SENSOR,
+        depth(sample_count),
+        COUNT_SENSORS,
+    ]
+    .concat()
 }
 
 /// The colour of the sensors that cover each pixel.
@@ -150,6 +169,7 @@ pub fn resolve_sensors(sample_count: u32) -> String {
     let depth = depth(sample_count);
     let parts = [
         SIGHT,
+        HOST,
         SURFACE,
         SENSOR,
         depth,

@@ -9,7 +9,7 @@ use crate::{
     frame_stats::FrameStats,
     gpu::fixed_point::FixedEye,
     gpu::gpu_mesh::GpuMesh,
-    gpu::pipelines::Pipelines,
+    gpu::pipelines::{Pipelines, Projection},
     gpu::sensor_view::SensorView,
     gpu::stream_buffer::StreamBuffer,
     gpu::style_view::StyleView,
@@ -39,7 +39,7 @@ pub(crate) struct Prepared {
     pub revision: u64,
     pub technique: CountTechnique,
     pub mirrored: bool,
-    pub unclipped: bool,
+    pub projection: Projection,
     pub stats: FrameStats,
 }
 
@@ -203,6 +203,11 @@ impl FrameUniform {
         ];
         let [constant, linear, quadratic] = extrusion.slack.map(|part| part as f32);
         let padded = |[x, y, z]: [i32; 3]| [x, y, z, 0];
+        // First what distance, or w, is multiplied with.
+        let mut depth = sight.depth;
+        if sight.parallel {
+            depth.reverse();
+        }
         Self {
             clip_from_relative: sight.clip_from_relative.as_mat4().to_cols_array(),
             eye: padded(eye.steps),
@@ -211,7 +216,7 @@ impl FrameUniform {
             normal_scale: [1.0, 1.0, (ratio * ratio) as f32, 0.0],
             heights: heights.map(|height| height as f32),
             slack: [constant, linear, quadratic, sight.near_m as f32],
-            depth: [sight.depth[0] as f32, sight.depth[1] as f32, 0.0, 0.0],
+            depth: [depth[0] as f32, depth[1] as f32, 0.0, 0.0],
         }
     }
 }

@@ -11,7 +11,7 @@ use crate::{
 
 /// Steps in a metre along an arc; as in stroke.wgsl.
 const STEPS_PER_M: f64 = 64.0;
-/// Pixels may be that many times larger than `Sight::pixel_rad`: off the axes, and where they are
+/// Pixels may be that many times larger than `Sight::pixel`: off the axes, and where they are
 /// oblong.
 const LARGEST_PIXEL: f64 = 4.0;
 
@@ -165,7 +165,9 @@ fn is_flat(mesh: &FillMesh, arc: &Arc, sight: &Sight) -> bool {
         .map(|ends| ends[0].distance_squared(ends[1]))
         .fold(0.0, f64::max);
     let sag_m = longest_squared / (8.0 * mesh.ellipsoid.b_m);
-    half_relief_m + sag_m <= budget_m && longest_squared.sqrt() <= FLAT_SHARE * distance_m
+    // Parallel lines of sight show all of a chord at one scale.
+    let level = sight.parallel || longest_squared.sqrt() <= FLAT_SHARE * distance_m;
+    half_relief_m + sag_m <= budget_m && level
 }
 
 impl EdgeDraws {
@@ -227,13 +229,9 @@ impl Reach {
         let (middle_m, radius_m) = sight.sphere(bounds);
         let radius_m = radius_m + self.metres;
         // On the screen, beside the picture: whatever the slant of the ground.
-        let pixel_m = LARGEST_PIXEL * sight.pixel_rad * (middle_m.length() + radius_m);
+        let pixel_m = LARGEST_PIXEL * sight.pixel.at_m(middle_m.length() + radius_m);
         let margin_m = radius_m + (self.pixels + 1.0) * pixel_m;
-        if sight
-            .side_planes
-            .iter()
-            .any(|inward| inward.dot(middle_m) < -margin_m)
-        {
+        if sight.outside_m(middle_m) > margin_m {
             return false;
         }
         // On the ground: at the horizon pixels reach as far as it is curved.

@@ -31,7 +31,7 @@ impl EdgeUniform {
     ) -> Self {
         let foot = FixedEye::new(reference.foot_ecef_m);
         let with_zero = |[x, y, z]: [i32; 3]| [x, y, z, 0];
-        let axis = sight.clip_from_relative.transpose().w_axis.xyz();
+        let axis = sight.clip_from_relative.transpose().z_axis.xyz();
         let spans = [rays.right, rays.down]
             .map(|[x, y, z, _]| DVec3::new(f64::from(x), f64::from(y), f64::from(z)).length());
         let (lowest_m, highest_m) = sight.surface_m;

@@ -17,9 +17,11 @@ use crate::{
     gpu::fixed_point::{FixedVertex, encode},
 };
 
-/// Ends of walls and columns lie within this many times the distance at which they are seen: single
-/// precision then displaces what is between by less than 0.01 px of 10⁻³ rad.
+/// Ends of walls and columns lie within this many times the distance at which they are seen, or at which
+/// pixels would span `REACH_PIXEL_RAD` if that is less: single precision then displaces what is between by
+/// less than 0.01 px.
 const REACH: f64 = 150.0;
+const REACH_PIXEL_RAD: f64 = 1e-3;
 /// Halvings of one chord; 2⁻³² of the longest is below the vertex encoding.
 const MAX_HALVINGS: u32 = 32;
 
@@ -69,7 +71,8 @@ impl Patch {
         let longest_m = 2.1 * arc.bounds.radius_rad * mesh.ellipsoid.a_m;
         let limits = Limits::at(sight, nearest_m);
         let (middle_m, radius_m) = sight.sphere(&arc.bounds);
-        let may_cut = reach_m(sight, middle_m.length() + radius_m) > REACH * nearest_m;
+        let farthest_m = middle_m.length() + radius_m;
+        let may_cut = column_reach_m(sight, farthest_m) > reach_at_m(sight, nearest_m);
         if !may_cut && !limits.exceeded_by(longest_m, mesh_deviation_m(mesh, arc)) {
             return;
         }
@@ -156,25 +159,40 @@ impl Patch {
     }
 }
 
-/// Heights, metres, at which a column is cut: above and below the eye, where its ends stand too far away.
-/// They depend on the column and the eye alone, so that all walls at a column cut it alike.
+/// Heights, metres, at which a column is cut: above and below the eye, where its ends stand too far away
+/// from it, or far from the ellipsoid that they are raised from. They depend on the column and the eye
+/// alone, so that all walls at a column cut it alike.
 fn cuts_m(surface_m: DVec3, sight: &Sight) -> impl Iterator<Item = f64> {
     let distance_m = surface_m.distance(sight.eye_ecef_m);
     let bottom_m = sight.extrusion.bottom_at_m(distance_m);
     let top_m = sight.extrusion.top_at_m(distance_m);
-    let seen_from_m = sight.distance_to_wall_m(surface_m, surface_m);
+    let reach_m = reach_at_m(sight, sight.distance_to_wall_m(surface_m, surface_m));
     let middle_m = sight.nearest_surface_height_m();
-    [-REACH, REACH]
-        .map(|reach| middle_m + reach * seen_from_m)
+    // Within half the slack there is no surface.
+    let inset_m = 0.5 * sight.extrusion.slack_m(distance_m);
+    let ends_m = [
+        (middle_m - reach_m, bottom_m, bottom_m + inset_m),
+        (middle_m + reach_m, top_m, top_m - inset_m),
+    ];
+    ends_m
         .into_iter()
-        .filter(move |cut_m| *cut_m > bottom_m + 1.0 && *cut_m < top_m - 1.0)
+        .filter_map(move |(cut_m, end_m, near_end_m)| {
+            if cut_m > bottom_m + 1.0 && cut_m < top_m - 1.0 {
+                Some(cut_m)
+            } else {
+                (end_m.abs() > reach_m).then_some(near_end_m)
+            }
+        })
 }
 
-/// How far, metres, columns at a distance from the eye reach beyond the surface that is nearest to it.
-fn reach_m(sight: &Sight, distance_m: f64) -> f64 {
+/// How far, metres, columns at a distance from the eye reach beyond the surface that is nearest to it, or
+/// from the ellipsoid that they are raised from.
+fn column_reach_m(sight: &Sight, distance_m: f64) -> f64 {
+    let bottom_m = sight.extrusion.bottom_at_m(distance_m);
+    let top_m = sight.extrusion.top_at_m(distance_m);
     let middle_m = sight.nearest_surface_height_m();
-    let above_m = sight.extrusion.top_at_m(distance_m) - middle_m;
-    above_m.max(middle_m - sight.extrusion.bottom_at_m(distance_m))
+    let beyond_m = (top_m - middle_m).max(middle_m - bottom_m);
+    beyond_m.max(top_m.abs()).max(bottom_m.abs())
 }
 
 /// A column's vertex and its corners from bottom to top, as indices of the patch.
@@ -187,6 +205,11 @@ impl Column {
     fn left_above(&self, corner: usize) -> usize {
         self.corners.len() - 1 - corner
     }
+}
+
+/// How far, metres, walls and columns may reach that are seen from a given distance.
+fn reach_at_m(sight: &Sight, distance_m: f64) -> f64 {
+    REACH * sight.pixel.distance_m(REACH_PIXEL_RAD, distance_m)
 }
 
 /// What a chord may be where it is seen from a given distance.
@@ -210,10 +233,11 @@ impl Limits {
         let skew = (ellipsoid.a_m / ellipsoid.b_m).powi(2) - 1.0;
         Self {
             tolerance_m,
-            length_m: REACH * distance_m,
+            length_m: reach_at_m(sight, distance_m),
             area_m2: 8.0 * ellipsoid.b_m * tolerance_m / skew.abs(),
             wall_m: top_m - bottom_m,
-            columns_reach_too_far: reach_m(sight, distance_m) > REACH * distance_m,
+            columns_reach_too_far: column_reach_m(sight, distance_m)
+                > reach_at_m(sight, distance_m),
         }
     }
 

@@ -418,7 +418,7 @@ mod tests {
                     let unseen = sight
                         .side_planes
                         .iter()
-                        .any(|inward| ends.iter().all(|end| inward.dot(*end) < 0.0));
+                        .any(|plane| ends.iter().all(|end| plane.dot(end.extend(1.0)) < 0.0));
                     assert!(sum == 0 || unseen, "{sum} from {height_m} m over {at:?}");
                 }
             }

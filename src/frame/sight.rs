@@ -1,13 +1,14 @@
 //! What a frame's camera sees, in f64: everything the selection needs, derived once a frame.
 
-use glam::{DMat4, DVec2, DVec3, DVec4, Vec4Swizzles as _};
+use glam::{DMat4, DVec3, DVec4, Vec4Swizzles as _};
 
 use crate::{
     ellipsoid::Ellipsoid,
     error::RendererError,
     fill_mesh::Bounds,
+    frame::lens::{Lens, Pixel, SLACK_M},
     frame::window::Window,
-    options::{DepthConvention, Frame, RendererOptions},
+    options::{Frame, RendererOptions},
 };
 
 /// Smallest displacement, pixels, that refinement works towards: half the 1/32 px of rounding that
@@ -15,10 +16,6 @@ use crate::{
 const FINEST_PIXEL_ERROR: f64 = 1.0 / 64.0;
 /// Displacement, metres, below which refining is in vain: vertices are rounded to 3.8 µm an axis.
 const FINEST_TOLERANCE_M: f64 = 4e-6;
-/// Slack, metres, for rounding of a host that draws its surface in single precision.
-const SLACK_M: f64 = 0.25;
-/// Depth steps of a host by which its surface may lie off.
-const SLACK_STEPS: f64 = 4.0;
 /// How far, pixels, rasterisers move a vertex: half of a 1/256 px an axis, doubled. A face seen at a slant
 /// is moved in height by as much: where it touches the surface, in front of it.
 const SNAP_PX: f64 = std::f64::consts::SQRT_2 / 256.0;
@@ -39,7 +36,8 @@ pub(crate) struct Extrusion {
 }
 
 impl Extrusion {
-    fn slack_m(&self, distance_m: f64) -> f64 {
+    /// What is added for a host's depth steps, metres, at a distance from the eye.
+    pub(crate) fn slack_m(&self, distance_m: f64) -> f64 {
         let [constant, linear, quadratic] = self.slack;
         (constant + distance_m * (linear + distance_m * quadratic)).min(self.limit_m)
     }
@@ -60,28 +58,35 @@ impl Extrusion {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Sight {
     pub ellipsoid: Ellipsoid,
+    /// The eye, or the point that stands for it where lines of sight are parallel.
     pub eye_ecef_m: DVec3,
-    /// Height of the eye above the ellipsoid, metres.
+    /// From the host's eye to that point, metres.
+    pub from_host_eye_m: DVec3,
+    /// Height of that point above the ellipsoid, metres.
     pub eye_height_m: f64,
-    /// Clip space from metres relative to the eye along ECEF axes.
+    /// From metres relative to that point along ECEF axes: x and y of clip space, distance along the view
+    /// axis, w.
     pub clip_from_relative: DMat4,
+    /// Whether lines of sight are parallel.
+    pub parallel: bool,
     /// Whether the projection mirrors the picture.
     pub mirrored: bool,
     /// Whether depth ends at a far plane.
     pub far_plane: bool,
-    /// Depth of a point at distance w along the view axis is `depth[0]` + `depth[1]`/w.
+    /// Depth at a distance along the view axis is `depth[0]` + `depth[1]` / distance; where lines of sight
+    /// are parallel, · distance.
     pub depth: [f64; 2],
     /// Nothing nearer than this is drawn, metres.
     pub near_m: f64,
-    /// Angle a pixel spans in the middle of the picture, radians; the smaller of the two axes'.
-    pub pixel_rad: f64,
+    /// What a pixel spans in the middle of the picture; the smaller of the two axes'.
+    pub pixel: Pixel,
     /// How far, pixels, a drawn boundary may lie beside the true one.
     pub pixel_error: f64,
     /// Between which heights the host's surface lies, metres.
     pub surface_m: (f64, f64),
     pub extrusion: Extrusion,
-    /// Inward normals of the frustum's side planes, which pass through the eye.
-    pub side_planes: [DVec3; 4],
+    /// The frustum's side planes: inward unit normal, and how far inside the eye is.
+    pub side_planes: [DVec4; 4],
 }
 
 impl Sight {
@@ -93,47 +98,61 @@ impl Sight {
         options: &RendererOptions,
     ) -> Result<Self, RendererError> {
         validate(frame)?;
-        let camera = &frame.camera;
-        let projection = camera.clip_from_view;
-        let rotation = DMat4::from_mat3(camera.view_from_ecef);
-        let clip_from_relative = projection * rotation;
-        let rows = clip_from_relative.transpose();
-        let (x_row, y_row, w_row) = (rows.x_axis.xyz(), rows.y_axis.xyz(), rows.w_axis.xyz());
+        let terrain = &frame.terrain;
+        let middle_m = 0.5 * (terrain.min_m + terrain.max_m);
+        let lens = Lens::of(frame, options.depth, &ellipsoid, middle_m)?;
+        let rows = lens.clip_from_relative.transpose();
+        let (x_row, y_row, w_row) = (rows.x_axis, rows.y_axis, rows.w_axis);
         let side_planes = [w_row + x_row, w_row - x_row, w_row + y_row, w_row - y_row];
-        let depth = DepthRange::of(projection, options.depth)?;
-        let pixels_rad = pixel_angles_rad(projection, frame)?;
-        let eye_height_m = ellipsoid.geodetic(camera.eye_ecef_m).1;
-        let [constant, linear, quadratic] = depth.slack(options);
-        let snapped = SNAP_PX * pixels_rad.max_element();
+        let limit_m = ellipsoid.b_m / 20.0;
+        let [constant, linear, quadratic] = lens.slack(options);
+        let snapped = SNAP_PX * lens.spans.max_element();
+        let mut extrusion = Extrusion {
+            top_m: terrain.max_m + sag_m,
+            bottom_m: terrain.min_m,
+            push_per_m: 0.0,
+            limit_m,
+            slack: [constant, linear, quadratic],
+        };
+        let push = lens.spans.max_element() * frame.host_pixel_error;
+        if lens.parallel {
+            extrusion.bottom_m = extrusion.bottom_m.min(-push.min(limit_m));
+            extrusion.slack[0] += snapped;
+        } else {
+            extrusion.push_per_m = push;
+            extrusion.slack[1] += snapped;
+        }
         Ok(Self {
             ellipsoid,
-            eye_ecef_m: camera.eye_ecef_m,
-            eye_height_m,
-            clip_from_relative,
-            mirrored: x_row.cross(y_row).dot(w_row) > 0.0,
-            far_plane: depth.far_plane,
-            depth: depth.coefficients,
-            near_m: depth.near_m,
-            pixel_rad: pixels_rad.min_element(),
+            eye_height_m: ellipsoid.geodetic(lens.eye_ecef_m).1,
+            from_host_eye_m: lens.eye_ecef_m - frame.camera.eye_ecef_m,
+            mirrored: x_row.xyz().cross(y_row.xyz()).dot(lens.axis()) > 0.0,
+            pixel: lens.pixel(),
             pixel_error: frame.pixel_error.max(FINEST_PIXEL_ERROR),
-            surface_m: (frame.terrain.min_m, frame.terrain.max_m),
-            extrusion: Extrusion {
-                top_m: frame.terrain.max_m + sag_m,
-                bottom_m: frame.terrain.min_m,
-                push_per_m: pixels_rad.max_element() * frame.host_pixel_error,
-                limit_m: ellipsoid.b_m / 20.0,
-                slack: [constant, linear + snapped, quadratic],
-            },
-            side_planes: side_planes.map(DVec3::normalize),
+            surface_m: (terrain.min_m, terrain.max_m),
+            extrusion,
+            side_planes: side_planes.map(|plane| plane / plane.xyz().length()),
+            eye_ecef_m: lens.eye_ecef_m,
+            clip_from_relative: lens.clip_from_relative,
+            parallel: lens.parallel,
+            far_plane: lens.far_plane,
+            depth: lens.depth,
+            near_m: lens.near_m,
         })
+    }
+
+    /// How far, metres, a point relative to the eye lies outside the frustum's sides; negative inside.
+    pub(crate) fn outside_m(&self, point_m: DVec3) -> f64 {
+        self.side_planes
+            .iter()
+            .map(|plane| -plane.dot(point_m.extend(1.0)))
+            .fold(f64::NEG_INFINITY, f64::max)
     }
 
     /// Whether everything within `bounds`, up to the walls' heights, lies outside one side plane.
     pub(crate) fn outside_side_plane(&self, bounds: &Bounds) -> bool {
         let (middle_m, radius_m) = self.sphere(bounds);
-        self.side_planes
-            .iter()
-            .any(|inward| inward.dot(middle_m) < -radius_m)
+        self.outside_m(middle_m) > radius_m
     }
 
     /// Whether the ellipsoid, as low as the host's surface may be, hides all surface in `bounds`.
@@ -142,20 +161,34 @@ impl Sight {
     /// other if their angle is at most the sum of their horizon angles.
     pub(crate) fn beyond_horizon(&self, bounds: &Bounds) -> bool {
         let radii_m = self.ellipsoid.radii_m();
-        let eye = self.eye_ecef_m / radii_m;
         let shortest_m = radii_m.min_element();
         let occluder = 1.0 + self.lowest_surface_m() / shortest_m;
-        let eye_distance = eye.length();
-        if eye_distance <= occluder {
+        let Some((eye, from_above_rad)) = self.horizon_of(occluder) else {
             return false;
-        }
+        };
         let highest = 1.0 + (self.surface_m.1.max(0.0) + SLACK_M) / shortest_m;
-        let horizon_rad = (occluder / eye_distance).acos() + (occluder / highest).min(1.0).acos();
+        let horizon_rad = from_above_rad + (occluder / highest).min(1.0).acos();
         let apart_rad = eye.angle_between(bounds.axis) - bounds.radius_rad;
         // Bounds hold foot points: divided by the radii, the normal that a point stands on leaves the
         // radial direction by up to twice the flattening.
         let leaning_rad = 2.0 * self.ellipsoid.flattening().abs() * (highest - 1.0);
         apart_rad > horizon_rad + leaning_rad + 1e-6
+    }
+
+    /// In coordinates divided by the radii: where the eye is, and the angle from there about the centre to
+    /// the horizon of a sphere. None if it is inside. Parallel lines come from infinitely far away, unless
+    /// the near plane cuts the sphere.
+    fn horizon_of(&self, occluder: f64) -> Option<(DVec3, f64)> {
+        let radii_m = self.ellipsoid.radii_m();
+        if self.parallel {
+            let axis = self.clip_from_relative.transpose().z_axis.xyz();
+            let nearest_m = -axis.dot(self.eye_ecef_m) - occluder * (axis * radii_m).length();
+            let whole = self.near_m < nearest_m;
+            return whole.then_some((-axis / radii_m, std::f64::consts::FRAC_PI_2));
+        }
+        let eye = self.eye_ecef_m / radii_m;
+        let eye_distance = eye.length();
+        (eye_distance > occluder).then(|| (eye, (occluder / eye_distance).acos()))
     }
 
     fn lowest_surface_m(&self) -> f64 {
@@ -194,7 +227,11 @@ impl Sight {
     /// Lower bound, metres, of the distance from the eye to visible surface in `bounds`.
     pub(crate) fn distance_to_m(&self, bounds: &Bounds) -> f64 {
         let (middle_m, radius_m) = self.sphere(bounds);
-        (middle_m.length() - radius_m).max(self.near_m)
+        (middle_m.length() - radius_m).max(self.nearest_m())
+    }
+
+    fn nearest_m(&self) -> f64 {
+        self.near_m.max(0.0)
     }
 
     /// Height, metres, within the surface's range that is nearest to the eye's.
@@ -218,24 +255,12 @@ impl Sight {
             a
         };
         let sag_m = length_squared / (8.0 * self.ellipsoid.b_m);
-        (nearest.length() - sag_m).max(self.near_m)
+        (nearest.length() - sag_m).max(self.nearest_m())
     }
 
     /// Displacement, metres at distance `distance_m`, that the pixel budget allows.
     pub(crate) fn tolerance_m(&self, distance_m: f64) -> f64 {
-        (self.pixel_error * self.pixel_rad * distance_m).max(FINEST_TOLERANCE_M)
-    }
-}
-
-/// Angles, radians, that a pixel spans across and down in the middle of the picture.
-fn pixel_angles_rad(projection: DMat4, frame: &Frame) -> Result<DVec2, RendererError> {
-    let rows = projection.transpose();
-    let scales = DVec2::new(rows.x_axis.xy().length(), rows.y_axis.xy().length());
-    let angles_rad = 2.0 / (scales * frame.size_px.as_dvec2());
-    if angles_rad.is_finite() {
-        Ok(angles_rad)
-    } else {
-        Err(RendererError::InvalidFrame("camera.clip_from_view"))
+        (self.pixel_error * self.pixel.at_m(distance_m)).max(FINEST_TOLERANCE_M)
     }
 }
 
@@ -269,55 +294,5 @@ fn validate(frame: &Frame) -> Result<(), RendererError> {
     match checks.into_iter().find(|(valid, _)| !valid) {
         Some((_, field)) => Err(RendererError::InvalidFrame(field)),
         None => Ok(()),
-    }
-}
-
-/// How the host's depth depends on distance.
-struct DepthRange {
-    /// z/w = first + second/w.
-    coefficients: [f64; 2],
-    near_m: f64,
-    far_plane: bool,
-}
-
-impl DepthRange {
-    /// Reads a perspective projection; z/w = A + B/w with w the distance along the view axis.
-    fn of(projection: DMat4, convention: DepthConvention) -> Result<Self, RendererError> {
-        let rows = projection.transpose();
-        let oblique = rows.z_axis.xy() != DVec2::ZERO;
-        let offset = rows.x_axis.w != 0.0 || rows.y_axis.w != 0.0;
-        if rows.w_axis != DVec4::new(0.0, 0.0, -1.0, 0.0) || oblique || offset {
-            return Err(RendererError::Unsupported(
-                "camera.clip_from_view must be a perspective along -z (w = -z), not an oblique one",
-            ));
-        }
-        let constant = -rows.z_axis.z;
-        let inverse_m = rows.z_axis.w;
-        let (near_depth, far_depth) = match convention {
-            DepthConvention::Reversed => (1.0, 0.0),
-            DepthConvention::Standard => (0.0, 1.0),
-        };
-        let near_m = inverse_m / (near_depth - constant);
-        if !(near_m.is_finite() && near_m > 0.0) {
-            return Err(RendererError::InvalidFrame("camera.clip_from_view"));
-        }
-        Ok(Self {
-            coefficients: [constant, inverse_m],
-            near_m,
-            far_plane: (constant - far_depth).abs() > 1e-12,
-        })
-    }
-
-    /// Slack for the host's depth steps: z = near/w or 1 − near/w in 24 bits.
-    fn slack(&self, options: &RendererOptions) -> [f64; 3] {
-        let step = SLACK_STEPS * 2f64.powi(-24);
-        let float = matches!(
-            options.depth_format,
-            wgpu::TextureFormat::Depth32Float | wgpu::TextureFormat::Depth32FloatStencil8
-        );
-        match options.depth {
-            DepthConvention::Reversed if float => [SLACK_M, step, 0.0],
-            _ => [SLACK_M, step, step / self.near_m],
-        }
     }
 }

@@ -45,11 +45,18 @@ impl SightUniform {
     ) -> Self {
         let rows = sight.clip_from_relative.transpose();
         let relative_from_clip =
-            DMat3::from_cols(rows.x_axis.xyz(), rows.y_axis.xyz(), rows.w_axis.xyz())
+            DMat3::from_cols(rows.x_axis.xyz(), rows.y_axis.xyz(), rows.z_axis.xyz())
                 .transpose()
                 .inverse();
         let size = size_px.as_dvec2();
-        let [constant, inverse_m] = sight.depth;
+        let [constant, slope] = sight.depth;
+        // Parallel lines of sight have one that single precision holds.
+        let whole = if sight.parallel {
+            constant
+        } else {
+            constant.round()
+        };
+        let [behind_x, behind_y, behind_z] = (-sight.from_host_eye_m).to_array();
         let sky = match convention {
             DepthConvention::Reversed => 0.0,
             DepthConvention::Standard => 1.0,
@@ -64,16 +71,10 @@ impl SightUniform {
         let tiles = divided(size_px, TILE);
         let counted = |grid: UVec2| [grid.x, grid.y, grid.element_product(), 0];
         Self {
-            ray: padded(relative_from_clip.z_axis, 0.0),
-            right: padded(relative_from_clip.x_axis * (2.0 / size.x), 0.0),
-            down: padded(relative_from_clip.y_axis * (-2.0 / size.y), 0.0),
-            depth: [
-                constant - constant.round(),
-                inverse_m,
-                constant.round(),
-                sky,
-            ]
-            .map(|part| part as f32),
+            ray: padded(relative_from_clip.z_axis, behind_x),
+            right: padded(relative_from_clip.x_axis * (2.0 / size.x), behind_y),
+            down: padded(relative_from_clip.y_axis * (-2.0 / size.y), behind_z),
+            depth: [constant - whole, slope, whole, sky].map(|part| part as f32),
             ellipsoid: [ellipsoid.a_m, ratio * ratio, reference.tau, ellipsoid.b_m]
                 .map(|part| part as f32),
             eye_gradient: padded(eye_gradient, reference.outside_m),

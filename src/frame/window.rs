@@ -1,6 +1,6 @@
 //! Rectangles of the picture that hold what is drawn.
 
-use glam::{DMat4, DVec2, DVec3, UVec2, Vec4Swizzles as _};
+use glam::{DMat4, DVec2, DVec3, DVec4, UVec2, Vec4Swizzles as _};
 
 /// A rectangle in normalised device coordinates, −1 … 1 across the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,9 +26,8 @@ impl Window {
     /// `middle_m` is relative to the eye, along the axes that `clip_from_relative` is from.
     pub(crate) fn of_sphere(clip_from_relative: &DMat4, middle_m: DVec3, radius_m: f64) -> Self {
         let rows = clip_from_relative.transpose();
-        let w_row = rows.w_axis.xyz();
-        let span = |row: DVec3| tangents(row, w_row, middle_m, radius_m);
-        match (span(rows.x_axis.xyz()), span(rows.y_axis.xyz())) {
+        let span = |row: DVec4| tangents(row, rows.w_axis, middle_m, radius_m);
+        match (span(rows.x_axis), span(rows.y_axis)) {
             (Some(x), Some(y)) => Self {
                 min: DVec2::new(x.0, y.0),
                 max: DVec2::new(x.1, y.1),
@@ -71,11 +70,13 @@ impl Window {
     }
 }
 
-/// The coordinates k at which the planes `row` · v = k `w_row` · v through the eye touch a sphere:
+/// The coordinates k at which the planes `row` · v = k `w_row` · v touch a sphere:
 /// ((`row` − k `w_row`) · middle)² = radius² |`row` − k `w_row`|². None if the sphere reaches w = 0.
-fn tangents(row: DVec3, w_row: DVec3, middle_m: DVec3, radius_m: f64) -> Option<(f64, f64)> {
+fn tangents(row: DVec4, w_row: DVec4, middle_m: DVec3, radius_m: f64) -> Option<(f64, f64)> {
     let squared = radius_m * radius_m;
-    let (x, w) = (row.dot(middle_m), w_row.dot(middle_m));
+    let middle = middle_m.extend(1.0);
+    let (x, w) = (row.dot(middle), w_row.dot(middle));
+    let (row, w_row) = (row.xyz(), w_row.xyz());
     let quadratic = w * w - squared * w_row.length_squared();
     if w <= 0.0 || quadratic <= 0.0 {
         return None;
@@ -88,7 +89,7 @@ fn tangents(row: DVec3, w_row: DVec3, middle_m: DVec3, radius_m: f64) -> Option<
 
 #[cfg(test)]
 mod tests {
-    use glam::{DMat3, DVec4};
+    use glam::DMat3;
 
     use super::*;
 

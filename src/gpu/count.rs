@@ -5,7 +5,7 @@ use crate::{
     frame::volumes::{Volume, Walls},
     gpu::fixed_function::ONE_COUNTED,
     gpu::gpu_mesh::GpuMesh,
-    gpu::pipelines::{Input, Key, Pipelines},
+    gpu::pipelines::{Input, Key, Pipelines, Projection},
     gpu::planes::Planes,
     gpu::targets::{LayerTarget, Targets},
     options::CountTechnique,
@@ -36,7 +36,7 @@ pub(crate) struct Recorder<'a> {
 pub(crate) fn keys(
     technique: CountTechnique,
     planes: Planes,
-    unclipped: bool,
+    projection: Projection,
     inputs: &[Input],
 ) -> Vec<Key> {
     let mut keys = Vec::new();
@@ -45,24 +45,24 @@ pub(crate) fn keys(
             CountTechnique::Winding => keys.push(Key::Count {
                 input,
                 planes,
-                unclipped,
+                projection,
             }),
             CountTechnique::Stencil => {
                 keys.extend([false, true].map(|flipped| Key::Stencil {
                     input,
                     planes,
                     flipped,
-                    unclipped,
+                    projection,
                 }));
                 keys.push(Key::Cover {
                     input,
                     planes,
-                    unclipped,
+                    projection,
                 });
                 keys.push(Key::Reject {
                     input,
                     planes,
-                    unclipped,
+                    projection,
                 });
             }
         }
@@ -163,7 +163,7 @@ impl Recorder<'_> {
         let count = |input| Key::Count {
             input,
             planes: self.targets.key.planes[index],
-            unclipped: self.prepared.unclipped,
+            projection: self.prepared.projection,
         };
         for drawn in &self.meshes {
             let (draws, layer) = (
@@ -306,17 +306,17 @@ impl Recorder<'_> {
                 input,
                 planes,
                 flipped: inward != self.prepared.mirrored,
-                unclipped: self.prepared.unclipped,
+                projection: self.prepared.projection,
             },
             Stage::Cover => Key::Cover {
                 input,
                 planes,
-                unclipped: self.prepared.unclipped,
+                projection: self.prepared.projection,
             },
             Stage::Reject => Key::Reject {
                 input,
                 planes,
-                unclipped: self.prepared.unclipped,
+                projection: self.prepared.projection,
             },
         };
         pass.set_bind_group(1, &layer.mesh_group, &[]);

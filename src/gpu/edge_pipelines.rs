@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use crate::{
     frame::edge_draws::EdgeInput,
     frame::edge_segments::EdgeSegment,
-    gpu::pipelines::{Pipelines, layout},
+    gpu::pipelines::{Pipelines, layout, parallel_constants},
     options::RendererOptions,
     shaders,
 };
@@ -21,6 +21,8 @@ pub(crate) struct EdgeKey {
     pub input: EdgeInput,
     /// Whether the projection mirrors the picture.
     pub mirrored: bool,
+    /// Whether lines of sight are parallel.
+    pub parallel: bool,
 }
 
 /// Layouts, the shader module and the pipelines made so far.
@@ -87,6 +89,10 @@ impl EdgePipelines {
 
     fn make(&self, device: &wgpu::Device, key: EdgeKey) -> wgpu::RenderPipeline {
         let [vertex_entry, fragment_entry] = key.input.entries();
+        let compilation_options = wgpu::PipelineCompilationOptions {
+            constants: &parallel_constants(key.parallel),
+            ..Default::default()
+        };
         let attributes = wgpu::vertex_attr_array![0 => Sint32x4, 1 => Sint32x4, 2 => Uint32x4];
         let segments = [Some(wgpu::VertexBufferLayout {
             array_stride: size_of::<EdgeSegment>() as u64,
@@ -99,7 +105,7 @@ impl EdgePipelines {
             vertex: wgpu::VertexState {
                 module: &self.shader,
                 entry_point: Some(vertex_entry),
-                compilation_options: Default::default(),
+                compilation_options: compilation_options.clone(),
                 buffers: match key.input {
                     EdgeInput::Segments => &segments,
                     EdgeInput::Chords | EdgeInput::Flat => &[],
@@ -130,7 +136,7 @@ impl EdgePipelines {
             fragment: Some(wgpu::FragmentState {
                 module: &self.shader,
                 entry_point: Some(fragment_entry),
-                compilation_options: Default::default(),
+                compilation_options: compilation_options.clone(),
                 targets: &[Some(EDGE_FORMAT.into())],
             }),
             multiview_mask: None,

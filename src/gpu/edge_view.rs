@@ -28,6 +28,8 @@ pub(crate) struct EdgeView {
     layers: Vec<Option<EdgeLayer>>,
     meshes: BTreeMap<MeshId, EdgeMesh>,
     mirrored: bool,
+    /// Whether lines of sight are parallel.
+    parallel: bool,
 }
 
 struct EdgeLayer {
@@ -88,6 +90,7 @@ impl EdgeView {
         subjects: &[EdgeSubject<'_>],
     ) -> (u64, bool) {
         self.mirrored = subjects.iter().any(|subject| subject.sight.mirrored);
+        self.parallel = subjects.iter().any(|subject| subject.sight.parallel);
         for input in EdgeInput::ALL {
             pipelines.ensure(device, self.key(input));
         }
@@ -124,6 +127,7 @@ impl EdgeView {
         EdgeKey {
             input,
             mirrored: self.mirrored,
+            parallel: self.parallel,
         }
     }
 

@@ -2,12 +2,11 @@
 
 use std::sync::OnceLock;
 
-use wgpu::util::DeviceExt as _;
-
 use crate::{
     fill_mesh::FillMesh,
     frame::edge_draws::{EdgeSlot, edge_slots},
     frame::select::slot,
+    gpu::filled_buffer::FilledBuffer as _,
     gpu::fixed_point::encode,
 };
 
@@ -44,7 +43,7 @@ impl GpuMesh {
             } else {
                 contents
             };
-            device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            device.filled_buffer(&wgpu::util::BufferInitDescriptor {
                 label: Some(label),
                 contents,
                 usage,
@@ -80,7 +79,7 @@ impl GpuMesh {
     pub(crate) fn edge_slots(&self, device: &wgpu::Device, mesh: &FillMesh) -> &EdgeSlots {
         self.edge_slots.get_or_init(|| {
             let slots = edge_slots(mesh);
-            let buffer = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            let buffer = device.filled_buffer(&wgpu::util::BufferInitDescriptor {
                 label: Some("globefill edge slots"),
                 contents: if slots.is_empty() {
                     &[0; 8]

@@ -2,14 +2,13 @@
 
 use std::sync::Arc;
 
-use wgpu::util::DeviceExt as _;
-
 use crate::{
     error::RendererError,
     frame::code::{Mantissa, PlaneSums},
     frame::edge_draws::LayerEdges,
     frame::layers::{Layer, Layering, Styled},
     frame::placed::PatternPlace,
+    gpu::filled_buffer::FilledBuffer as _,
     gpu::planes::Planes,
     gpu::style_pipelines::StyleKey,
     gpu::style_table::{
@@ -83,11 +82,17 @@ impl LayerTables {
 
     /// The pipeline that resolves a layer with styles: they are read as uniforms where they and all
     /// places are few.
-    pub(crate) fn style_key(&self, device: &wgpu::Device, table: &StyleTable) -> StyleKey {
+    pub(crate) fn style_key(
+        &self,
+        device: &wgpu::Device,
+        table: &StyleTable,
+        parallel: bool,
+    ) -> StyleKey {
         let most_bytes = device.limits().max_uniform_buffer_binding_size;
         let fits = UNIFORM_STYLES_BYTES.max(UNIFORM_PLACES_BYTES) <= most_bytes;
         StyleKey {
             needs: table.needs,
+            parallel,
             few: table.few && self.places.len() <= MOST_UNIFORM_PLACES && fits,
         }
     }
@@ -152,7 +157,7 @@ impl LayerTable {
             .map(|fill| styled[fill.mesh].styles[fill.fill as usize].solid_color())
             .collect();
         let buffer = |label, contents, usage| {
-            device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            device.filled_buffer(&wgpu::util::BufferInitDescriptor {
                 label: Some(label),
                 contents,
                 usage,

@@ -1,10 +1,11 @@
 //! Asking the counted layers of a view about one pixel; compiled when first asked.
 
 use glam::UVec2;
-use wgpu::util::{BufferInitDescriptor, DeviceExt as _};
+use wgpu::util::BufferInitDescriptor;
 
 use crate::{
-    frame::layers::MAX_LAYERS, gpu::pipelines::layout, gpu::targets::LayerTarget, shaders,
+    frame::layers::MAX_LAYERS, gpu::filled_buffer::FilledBuffer as _, gpu::pipelines::layout,
+    gpu::targets::LayerTarget, shaders,
 };
 
 /// The head of `Answer` in pick.wgsl; an id for each layer follows.
@@ -74,7 +75,7 @@ impl PickPipeline {
         };
         let mut contents = bytemuck::bytes_of(&head).to_vec();
         contents.resize(contents.len() + 4 * MAX_LAYERS, 0);
-        let answer = device.create_buffer_init(&BufferInitDescriptor {
+        let answer = device.filled_buffer(&BufferInitDescriptor {
             label: Some("globefill pick"),
             contents: &contents,
             usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use crate::{
     frame::code::MAX_PLANES,
+    frame::sight::Sight,
     gpu::fixed_function::{ADD, STENCIL_FORMAT, counting_stencil, depth_stencil, painting},
     gpu::planes::Planes,
     options::{DepthConvention, RendererOptions},
@@ -25,6 +26,47 @@ pub(crate) enum Input {
     Patches,
 }
 
+/// How volumes are projected and clipped.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub(crate) enum Projection {
+    /// A perspective without a far plane: clipped at the near plane as usual.
+    #[default]
+    Infinite,
+    /// A perspective with a far plane, which must not clip.
+    FarPlane,
+    /// Parallel lines of sight, where neither plane need clip.
+    Parallel,
+}
+
+impl Projection {
+    pub(crate) fn of(sight: &Sight) -> Self {
+        match (sight.parallel, sight.far_plane) {
+            (true, _) => Self::Parallel,
+            (false, true) => Self::FarPlane,
+            (false, false) => Self::Infinite,
+        }
+    }
+
+    /// What the device must be able to do.
+    pub(crate) fn features(self) -> wgpu::Features {
+        match self {
+            Self::Infinite => wgpu::Features::empty(),
+            Self::FarPlane => FAR_PLANE_FEATURES,
+            Self::Parallel => wgpu::Features::DEPTH_CLIP_CONTROL,
+        }
+    }
+
+    /// The overrides of host.wgsl.
+    pub(crate) fn constants(self) -> [(&'static str, f64); 1] {
+        parallel_constants(self == Self::Parallel)
+    }
+}
+
+/// The overrides of host.wgsl.
+pub(crate) fn parallel_constants(parallel: bool) -> [(&'static str, f64); 1] {
+    [("PARALLEL", f64::from(u8::from(parallel)))]
+}
+
 /// Names a pipeline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Key {
@@ -32,7 +74,7 @@ pub(crate) enum Key {
     Count {
         input: Input,
         planes: Planes,
-        unclipped: bool,
+        projection: Projection,
     },
     /// Counts faces in the stencil and writes no colour, in the same pass as the covers; `flipped`
     /// where the outside is seen clockwise.
@@ -40,20 +82,20 @@ pub(crate) enum Key {
         input: Input,
         planes: Planes,
         flipped: bool,
-        unclipped: bool,
+        projection: Projection,
     },
     /// Paints a code where the stencil counted one, and clears the stencil there.
     Cover {
         input: Input,
         planes: Planes,
-        unclipped: bool,
+        projection: Projection,
     },
     /// Paints what is no code where the stencil counted neither none nor one, and clears it: winding
     /// sums are invalid at such pixels too, and resolve treats both alike.
     Reject {
         input: Input,
         planes: Planes,
-        unclipped: bool,
+        projection: Projection,
     },
     /// Copies the host's depth beside the stencil.
     CopyDepth,
@@ -141,9 +183,9 @@ impl Pipelines {
             Key::Count {
                 input,
                 planes,
-                unclipped,
+                projection,
             } => {
-                let mut recipe = self.volume_recipe(input, vertex_entry(input), unclipped);
+                let mut recipe = self.volume_recipe(input, vertex_entry(input), projection);
                 recipe.fragment = Some(self.planes_entry("fs_count"));
                 recipe.targets = self.targets(planes, Some(ADD), wgpu::ColorWrites::ALL);
                 recipe.depth_stencil = Some(depth_stencil(
@@ -157,9 +199,9 @@ impl Pipelines {
                 input,
                 planes,
                 flipped,
-                unclipped,
+                projection,
             } => {
-                let mut recipe = self.volume_recipe(input, vertex_entry(input), unclipped);
+                let mut recipe = self.volume_recipe(input, vertex_entry(input), projection);
                 recipe.fragment = Some(self.planes_entry("fs_count"));
                 recipe.targets = self.targets(planes, None, wgpu::ColorWrites::empty());
                 recipe.depth_stencil = Some(depth_stencil(
@@ -172,9 +214,9 @@ impl Pipelines {
             Key::Cover {
                 input,
                 planes,
-                unclipped,
+                projection,
             } => {
-                let mut recipe = self.cover_recipe(input, planes, unclipped);
+                let mut recipe = self.cover_recipe(input, planes, projection);
                 recipe.fragment = Some(self.planes_entry("fs_cover"));
                 recipe.depth_stencil = Some(painting(wgpu::CompareFunction::Equal));
                 self.build(device, &recipe)
@@ -182,9 +224,9 @@ impl Pipelines {
             Key::Reject {
                 input,
                 planes,
-                unclipped,
+                projection,
             } => {
-                let mut recipe = self.cover_recipe(input, planes, unclipped);
+                let mut recipe = self.cover_recipe(input, planes, projection);
                 recipe.fragment = Some(self.planes_entry("fs_reject"));
                 recipe.depth_stencil = Some(painting(wgpu::CompareFunction::Less));
                 self.build(device, &recipe)
@@ -259,12 +301,18 @@ impl Pipelines {
             .collect()
     }
 
-    fn volume_recipe(&self, input: Input, entry: &'static str, unclipped: bool) -> Recipe<'_> {
+    fn volume_recipe(
+        &self,
+        input: Input,
+        entry: &'static str,
+        projection: Projection,
+    ) -> Recipe<'_> {
         Recipe {
             module: match &self.unclipped_count_shader {
-                Some(module) if unclipped => module,
+                Some(module) if projection == Projection::FarPlane => module,
                 _ => &self.count_shader,
             },
+            constants: projection.constants().to_vec(),
             layouts: vec![&self.frame_layout, &self.mesh_layout],
             vertex: entry,
             fragment: None,
@@ -274,15 +322,15 @@ impl Pipelines {
                     Input::Walls => wgpu::PrimitiveTopology::TriangleStrip,
                     Input::Caps | Input::Patches => wgpu::PrimitiveTopology::TriangleList,
                 },
-                unclipped_depth: unclipped,
+                unclipped_depth: projection != Projection::Infinite,
                 ..Default::default()
             },
             depth_stencil: None,
         }
     }
 
-    fn cover_recipe(&self, input: Input, planes: Planes, unclipped: bool) -> Recipe<'_> {
-        let mut recipe = self.volume_recipe(input, cover_entry(input), unclipped);
+    fn cover_recipe(&self, input: Input, planes: Planes, projection: Projection) -> Recipe<'_> {
+        let mut recipe = self.volume_recipe(input, cover_entry(input), projection);
         recipe.targets = self.targets(planes, None, wgpu::ColorWrites::ALL);
         recipe
     }
@@ -294,6 +342,7 @@ impl Pipelines {
     ) -> Recipe<'a> {
         Recipe {
             module,
+            constants: Vec::new(),
             layouts: vec![layout],
             vertex: "vs_screen",
             fragment: None,
@@ -305,6 +354,10 @@ impl Pipelines {
 
     fn build(&self, device: &wgpu::Device, recipe: &Recipe<'_>) -> wgpu::RenderPipeline {
         let layouts: Vec<_> = recipe.layouts.iter().map(|&layout| Some(layout)).collect();
+        let compilation_options = wgpu::PipelineCompilationOptions {
+            constants: &recipe.constants,
+            ..Default::default()
+        };
         let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some(recipe.vertex),
             bind_group_layouts: &layouts,
@@ -316,7 +369,7 @@ impl Pipelines {
             vertex: wgpu::VertexState {
                 module: recipe.module,
                 entry_point: Some(recipe.vertex),
-                compilation_options: Default::default(),
+                compilation_options: compilation_options.clone(),
                 buffers: &[],
             },
             primitive: recipe.primitive,
@@ -328,7 +381,7 @@ impl Pipelines {
             fragment: recipe.fragment.as_deref().map(|entry| wgpu::FragmentState {
                 module: recipe.module,
                 entry_point: Some(entry),
-                compilation_options: Default::default(),
+                compilation_options: compilation_options.clone(),
                 targets: &recipe.targets,
             }),
             multiview_mask: None,
@@ -340,6 +393,7 @@ impl Pipelines {
 /// What differs between the pipelines.
 struct Recipe<'a> {
     module: &'a wgpu::ShaderModule,
+    constants: Vec<(&'static str, f64)>,
     layouts: Vec<&'a wgpu::BindGroupLayout>,
     vertex: &'static str,
     fragment: Option<String>,

@@ -19,6 +19,8 @@ pub(crate) enum Shown {
 pub(crate) struct SensorKey {
     pub shown: Shown,
     pub needs: Needs,
+    /// Whether lines of sight are parallel.
+    pub parallel: bool,
 }
 
 /// The pipelines of a frame.
@@ -95,7 +97,7 @@ impl SensorPipelines {
         let steps = |source, groups, entries: &[&str]| {
             let layout =
                 pipeline_layout(device, [&self.scene_layout, groups, &self.surface_layout]);
-            compute_pipelines(device, source, &layout, entries, key.needs)
+            compute_pipelines(device, source, &layout, entries, key)
         };
         let binning = ["cs_range", "cs_bin_blocks", "cs_bin_tiles"];
         let counting = shaders::count_sensors(samples);
@@ -114,7 +116,7 @@ impl SensorPipelines {
             (Shown::Coverage, false) => "fs_coverage",
             (Shown::Coverage, true) => "fs_coverage_sample",
         };
-        let constants = constants(key.needs);
+        let constants = constants(key);
         let module = module(device, shaders::resolve_sensors(samples));
         let layouts = [&self.scene_layout, &self.tiles_layout, &self.surface_layout];
         device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
@@ -156,9 +158,9 @@ fn compute_pipelines(
     source: String,
     layout: &wgpu::PipelineLayout,
     entries: &[&str],
-    needs: Needs,
+    key: SensorKey,
 ) -> Vec<wgpu::ComputePipeline> {
-    let constants = constants(needs);
+    let constants = constants(key);
     let module = module(device, source);
     entries
         .iter()
@@ -175,9 +177,11 @@ fn compute_pipelines(
         .collect()
 }
 
-/// The overrides of surface.wgsl.
-fn constants(needs: Needs) -> [(&'static str, f64); 4] {
+/// The overrides of surface.wgsl and host.wgsl.
+fn constants(key: SensorKey) -> [(&'static str, f64); 5] {
+    let needs = key.needs;
     [
+        ("PARALLEL", key.parallel),
         ("APEXES", needs.apexes),
         ("INNER_CONES", needs.inner_cones),
         ("CORNERS", needs.corners),

@@ -5,8 +5,12 @@ use std::collections::HashMap;
 use glam::UVec2;
 
 use crate::{
-    gpu::edge_pipelines::EdgePipelines, gpu::edge_view::edge_target, gpu::pipelines::layout,
-    gpu::style_record::Needs, gpu::surface_binding::surface_layout, options::RendererOptions,
+    gpu::edge_pipelines::EdgePipelines,
+    gpu::edge_view::edge_target,
+    gpu::pipelines::{layout, parallel_constants},
+    gpu::style_record::Needs,
+    gpu::surface_binding::surface_layout,
+    options::RendererOptions,
     shaders,
 };
 
@@ -16,6 +20,8 @@ pub(crate) struct StyleKey {
     pub needs: Needs,
     /// Whether styles and places are few enough for uniforms.
     pub few: bool,
+    /// Whether lines of sight are parallel.
+    pub parallel: bool,
 }
 
 /// Layouts, the shader modules and the pipelines made so far.
@@ -70,7 +76,7 @@ impl StylePipelines {
             let program = self.program(device, key.few);
             self.programs.insert(key.few, program);
         }
-        let pipeline = self.make(device, &self.programs[&key.few], key.needs);
+        let pipeline = self.make(device, &self.programs[&key.few], key);
         self.made.insert(key, pipeline);
     }
 
@@ -123,14 +129,20 @@ impl StylePipelines {
         }
     }
 
-    fn make(&self, device: &wgpu::Device, program: &Program, needs: Needs) -> wgpu::RenderPipeline {
+    fn make(
+        &self,
+        device: &wgpu::Device,
+        program: &Program,
+        key: StyleKey,
+    ) -> wgpu::RenderPipeline {
         let samples = self.options.sample_count;
         let entry = if samples > 1 {
             "fs_styled_sample"
         } else {
             "fs_styled"
         };
-        let constants = [("NEEDS", f64::from(needs))];
+        let [parallel] = parallel_constants(key.parallel);
+        let constants = [("NEEDS", f64::from(key.needs)), parallel];
         let options = wgpu::PipelineCompilationOptions {
             constants: &constants,
             ..Default::default()

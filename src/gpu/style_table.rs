@@ -1,12 +1,11 @@
 //! How the fills of a layer look, as resolve_styled.wgsl reads it.
 
-use wgpu::util::DeviceExt as _;
-
 use crate::{
     error::RendererError,
     frame::edge_draws::LayerEdges,
     frame::layers::{FillOf, Layer, Styled},
     frame::placed::{PatternPlace, Placed},
+    gpu::filled_buffer::FilledBuffer as _,
     gpu::image_arrays::{ImageArrays, ImageSlot},
     gpu::style_record::{ADDITIVE, Needs, SMOOTH, StyleRecord, metres_or_pixels, needs_of},
     stroke::Align,
@@ -132,7 +131,7 @@ impl StyleTable {
         Some(Self {
             bytes,
             few,
-            styles: device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            styles: device.filled_buffer(&wgpu::util::BufferInitDescriptor {
                 label: Some("globefill styles"),
                 contents: bytemuck::cast_slice(&records),
                 usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::UNIFORM,

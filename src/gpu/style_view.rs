@@ -27,6 +27,8 @@ pub(crate) struct StyleView {
     layers: Vec<Option<StyledLayer>>,
     /// Which layer tables are bound.
     revision: (u64, CountTechnique),
+    /// Whether lines of sight are parallel.
+    parallel: bool,
 }
 
 struct StyledLayer {
@@ -45,6 +47,8 @@ pub(crate) struct StyleFrame<'a> {
     pub revision: (u64, CountTechnique),
     pub reference: Reference,
     pub uniform: SightUniform,
+    /// Whether lines of sight are parallel.
+    pub parallel: bool,
     pub edges: EdgeFrame<'a>,
     /// The meshes, in the order they are drawn in.
     pub subjects: &'a [EdgeSubject<'a>],
@@ -61,6 +65,7 @@ impl StyleView {
             edge_cost: EdgeCost::default(),
             layers: Vec::new(),
             revision: (0, CountTechnique::default()),
+            parallel: false,
         }
     }
 
@@ -82,7 +87,9 @@ impl StyleView {
         let contents = bytemuck::cast_slice(&placed);
         let (uploaded, moved) = self.places.write(device, queue, contents);
         let (edge_bytes, replaced) = self.prepare_edges(device, queue, pipelines, with);
-        if moved || replaced || self.revision != with.revision || self.layers.is_empty() {
+        let turned = self.parallel != with.parallel;
+        self.parallel = with.parallel;
+        if moved || replaced || turned || self.revision != with.revision || self.layers.is_empty() {
             self.revision = with.revision;
             self.bind(device, pipelines, with.tables);
         }
@@ -114,7 +121,7 @@ impl StyleView {
         let styled = tables.styles.iter().enumerate().map(|(layer, table)| {
             let table = table.as_ref()?;
             let edges = self.edges.as_ref().and_then(|edges| edges.target(layer));
-            let key = tables.style_key(device, table);
+            let key = tables.style_key(device, table, self.parallel);
             // Uniforms have a largest size.
             let bound = |buffer, few_bytes| {
                 wgpu::BindingResource::Buffer(wgpu::BufferBinding {

@@ -13,7 +13,7 @@ use crate::{
     frame_stats::FrameStats,
     gpu::count,
     gpu::layer_tables::{LayerTables, require},
-    gpu::pipelines::{FAR_PLANE_FEATURES, Input, Key},
+    gpu::pipelines::{Input, Key, Projection},
     gpu::style_table::StyleSource,
     gpu::targets::{Targets, TargetsKey},
     options::{CountTechnique, Frame},
@@ -48,12 +48,10 @@ impl Renderer {
             revision: self.revision,
             technique: layers.layering.technique,
             mirrored: sight.is_some_and(|sight| sight.mirrored),
-            unclipped: sight.is_some_and(|sight| sight.far_plane),
+            projection: sight.map(Projection::of).unwrap_or_default(),
             stats: FrameStats::default(),
         };
-        if prepared.unclipped {
-            require(self.device.features(), FAR_PLANE_FEATURES)?;
-        }
+        require(self.device.features(), prepared.projection.features())?;
         self.check_styles(&selections, choice)?;
         self.ensure_targets(view, frame, choice)?;
         self.ensure_pipelines(&prepared, &selections, choice)?;
@@ -214,7 +212,7 @@ impl Renderer {
             .into_iter()
             .filter_map(|(input, used)| used.then_some(input))
             .collect();
-            let keys = count::keys(prepared.technique, planes, prepared.unclipped, &inputs);
+            let keys = count::keys(prepared.technique, planes, prepared.projection, &inputs);
             for key in keys.into_iter().chain([Key::Resolve]) {
                 self.pipelines.ensure(&self.device, key);
             }

@@ -1,7 +1,7 @@
 //! Drawing the sensors of a renderer.
 
 use glam::UVec2;
-use wgpu::util::{BufferInitDescriptor, DeviceExt as _};
+use wgpu::util::BufferInitDescriptor;
 
 use super::Renderer;
 use crate::{
@@ -11,6 +11,7 @@ use crate::{
     frame::sight::Sight,
     frame::sight_uniform::SightUniform,
     frame_stats::FrameStats,
+    gpu::filled_buffer::FilledBuffer as _,
     gpu::sensor_pipelines::{SensorKey, SensorPipelines, Shown},
     gpu::sensor_view::{self, SensorFrame, SensorView},
     options::Frame,
@@ -86,6 +87,7 @@ impl Renderer {
         let key = SensorKey {
             shown,
             needs: set.needs(),
+            parallel: sight.parallel,
         };
         pipelines.ensure(&self.device, key);
         let sensors = view
@@ -93,7 +95,7 @@ impl Renderer {
             .get_or_insert_with(|| SensorView::new(&self.device));
         sensors.key = Some(key);
         if !sensors.holds(frame, set) {
-            let reference = Reference::new(set.ellipsoid(), frame.camera.eye_ecef_m);
+            let reference = Reference::new(set.ellipsoid(), sight.eye_ecef_m);
             let depth = self.options.depth;
             let with = SensorFrame {
                 set,
@@ -160,7 +162,7 @@ impl Renderer {
             return Ok(());
         };
         let question = [pixel.x, pixel.y, 0, 0];
-        let answer = self.device.create_buffer_init(&BufferInitDescriptor {
+        let answer = self.device.filled_buffer(&BufferInitDescriptor {
             label: Some("globefill answer"),
             contents: bytemuck::cast_slice(&question),
             usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,

@@ -199,10 +199,10 @@ impl Renderer {
             pipelines.edges = Some(edges);
         }
         for table in tables.styles.iter().flatten() {
-            pipelines.ensure(device, tables.style_key(device, table));
+            pipelines.ensure(device, tables.style_key(device, table, sight.parallel));
         }
         let frame = &prepared.frame;
-        let reference = Reference::new(sight.ellipsoid, frame.camera.eye_ecef_m);
+        let reference = Reference::new(sight.ellipsoid, sight.eye_ecef_m);
         let depth = self.options.depth;
         let mut uniform = SightUniform::new(sight, &reference, depth, frame.size_px);
         uniform.window = window(&self.meshes, tables, selections, frame.size_px);
@@ -219,6 +219,7 @@ impl Renderer {
             tables,
             revision: (self.revision, prepared.technique),
             uniform,
+            parallel: sight.parallel,
             reference,
             edges: EdgeFrame {
                 size_px: frame.size_px,

@@ -30,7 +30,7 @@ impl IdPainter {
     pub fn new(gpu: &Gpu, mesh: FillMesh, surface: &Surface, count: CountTechnique) -> Self {
         let options = RendererOptions {
             color_format: COLOR,
-            depth_format: wgpu::TextureFormat::Depth32Float,
+            depth_format: surface.depth_format(),
             depth: surface.range.convention(),
             sample_count: surface.samples(),
             count,

@@ -232,7 +232,7 @@ pub fn boundary_distance_px(
             let points: Vec<DVec2> = (-STEPS..=STEPS)
                 .map(|k| (t + reach * f64::from(k) / f64::from(STEPS)).clamp(0.0, 1.0))
                 .map(|t| surface.lens.project(at(t)))
-                .filter(|&(_, distance_m)| distance_m > 0.0)
+                .filter(|&(_, distance_m)| distance_m > 0.0 || surface.lens.parallel)
                 .map(|(px, _)| px)
                 .collect();
             points

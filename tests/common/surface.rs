@@ -1,10 +1,11 @@
 //! What the host draws: the bare ellipsoid or analytic terrain, ray-cast in f64.
 
 use glam::{DVec2, DVec3, UVec2};
+use globefill::wgpu;
 use rayon::prelude::*;
 
 use super::{
-    camera::{DepthRange, Lens, Pose},
+    camera::{DepthRange, DepthSteps, Lens, Pose},
     figure::Figure,
 };
 
@@ -15,6 +16,8 @@ pub enum Terrain {
     Plateau {
         height_m: f64,
     },
+    /// The ellipsoid seen from below.
+    Ceiling,
     /// Mountains between 4 and 9 km: waves of 300 m to 60 km length along three axes.
     Rough,
     /// The bare ellipsoid, of a host whose surface lies between −11 and 9 km elsewhere.
@@ -48,7 +51,7 @@ const DEEP_MEAN_M: f64 = -1000.0;
 impl Terrain {
     pub fn height_m(self, normal: DVec3) -> f64 {
         match self {
-            Self::Bare | Self::Level => 0.0,
+            Self::Bare | Self::Level | Self::Ceiling => 0.0,
             Self::Plateau { height_m } => height_m,
             Self::Rough => {
                 let waves = WAVES.iter().map(|(k, height)| height * k.dot(normal).sin());
@@ -84,6 +87,10 @@ impl Terrain {
     pub fn hit(self, figure: &Figure, eye_m: DVec3, ray: DVec3) -> Option<f64> {
         if matches!(self, Self::Bare | Self::Level) {
             return figure.first_hit(eye_m, ray, 0.0);
+        }
+        if self == Self::Ceiling {
+            let (_, leave) = figure.hits(eye_m, ray, 0.0)?;
+            return (leave > 0.0).then_some(leave);
         }
         let (low_m, high_m) = self.range_m();
         // The ellipsoid with longer axes lies up to f²·h/2 below the surface of that height.
@@ -189,8 +196,8 @@ pub struct Cast {
     pose: Pose,
     size_px: UVec2,
     terrain: Terrain,
-    /// Sample after sample, row after row: direction, and distance along the view axis.
-    rays: Vec<(DVec3, Option<f64>)>,
+    /// Sample after sample, row after row: start, direction, and distance along the view axis.
+    rays: Vec<(DVec3, DVec3, Option<f64>)>,
 }
 
 impl Cast {
@@ -203,21 +210,23 @@ impl Cast {
     ) -> Self {
         let any_range = DepthRange::ReversedInfinite { near_m: 1.0 };
         let lens = Lens::new(figure, pose, size_px, any_range);
-        let directions: Vec<DVec3> = sample_positions(samples)
+        let places: Vec<DVec2> = sample_positions(samples)
             .iter()
             .flat_map(|&offset| {
                 (0..size_px.y).flat_map(move |y| {
-                    (0..size_px.x)
-                        .map(move |x| lens.ray(DVec2::new(f64::from(x), f64::from(y)) + offset))
+                    (0..size_px.x).map(move |x| DVec2::new(f64::from(x), f64::from(y)) + offset)
                 })
             })
             .collect();
-        let rays: Vec<(DVec3, Option<f64>)> = directions
+        let rays: Vec<(DVec3, DVec3, Option<f64>)> = places
             .into_par_iter()
-            .map(|ray| (ray, terrain.hit(figure, lens.eye_m, ray)))
+            .map(|at_px| {
+                let (origin_m, ray) = (lens.origin_m(at_px), lens.ray(at_px));
+                (origin_m, ray, terrain.hit(figure, origin_m, ray))
+            })
             .collect();
         assert!(
-            rays.iter().any(|(_, hit)| hit.is_some()),
+            rays.iter().any(|(.., hit)| hit.is_some()),
             "{pose:?} sees nothing but sky"
         );
         Self {
@@ -227,6 +236,14 @@ impl Cast {
             terrain,
             rays,
         }
+    }
+}
+
+impl Cast {
+    /// Distance along the view axis of the nearest surface.
+    pub fn nearest_m(&self) -> f64 {
+        let seen = self.rays.iter().filter_map(|(.., hit)| *hit);
+        seen.fold(f64::INFINITY, f64::min)
     }
 }
 
@@ -245,43 +262,73 @@ pub struct Surface {
 /// How the depth range follows from the view.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum DepthKind {
-    /// Reversed infinite, near 0.01 m … 1 m.
+    /// Reversed infinite, near 0.01 m … 1 m; in parallel views reversed finite.
     Reversed,
     /// Standard with planes a factor of two before and behind what is seen.
     Standard,
+    /// Reversed with planes a factor of two before and behind what is seen.
+    ReversedFinite,
+    /// The standard one in 24 bits.
+    Standard24,
+    /// The reversed finite one in 24 bits.
+    Reversed24,
+}
+
+impl DepthKind {
+    fn steps(self) -> DepthSteps {
+        match self {
+            Self::Reversed | Self::Standard | Self::ReversedFinite => DepthSteps::Float,
+            Self::Standard24 | Self::Reversed24 => DepthSteps::Bits24,
+        }
+    }
+
+    fn range(self, cast: &Cast) -> DepthRange {
+        let seen = || cast.rays.iter().filter_map(|(.., hit)| *hit);
+        let nearest_m = seen().fold(f64::INFINITY, f64::min);
+        let farthest_m = seen().fold(f64::NEG_INFINITY, f64::max);
+        let (near_m, far_m) = if cast.pose.parallel_m.is_some() {
+            let margin_m = 100.0 + 0.5 * (farthest_m - nearest_m);
+            (nearest_m - margin_m, farthest_m + margin_m)
+        } else {
+            (0.5 * nearest_m, 2.0 * farthest_m)
+        };
+        match self {
+            Self::Reversed if cast.pose.parallel_m.is_none() => DepthRange::ReversedInfinite {
+                near_m: (0.1 * nearest_m).clamp(0.01, 1.0),
+            },
+            Self::Reversed | Self::ReversedFinite | Self::Reversed24 => {
+                DepthRange::ReversedFinite { near_m, far_m }
+            }
+            Self::Standard | Self::Standard24 => DepthRange::StandardFinite { near_m, far_m },
+        }
+    }
 }
 
 impl Surface {
     pub fn new(cast: &Cast, kind: DepthKind) -> Self {
-        let seen = cast.rays.iter().filter_map(|(_, hit)| *hit);
-        let nearest_m = seen.clone().fold(f64::INFINITY, f64::min);
-        let farthest_m = seen.fold(0.0, f64::max);
-        let range = match kind {
-            DepthKind::Reversed => DepthRange::ReversedInfinite {
-                near_m: (0.1 * nearest_m).clamp(0.01, 1.0),
-            },
-            DepthKind::Standard => DepthRange::StandardFinite {
-                near_m: 0.5 * nearest_m,
-                far_m: 2.0 * farthest_m,
-            },
-        };
-        let lens = Lens::new(&cast.figure, &cast.pose, cast.size_px, range);
+        Self::stored(cast, kind.range(cast), kind.steps())
+    }
+
+    /// A surface in a depth buffer of any range.
+    pub fn stored(cast: &Cast, range: DepthRange, steps: DepthSteps) -> Self {
+        let mut lens = Lens::new(&cast.figure, &cast.pose, cast.size_px, range);
+        lens.steps = steps;
         let depths: Vec<f32> = cast
             .rays
             .iter()
-            .map(|(_, hit)| hit.map_or(range.cleared(), |t| lens.stored_depth(t)))
+            .map(|(.., hit)| hit.map_or(range.cleared(), |t| lens.stored_depth(t)))
             .collect();
         let points_m = cast
             .rays
             .iter()
             .zip(&depths)
-            .map(|(&(ray, hit), &depth)| {
+            .map(|(&(origin_m, ray, hit), &depth)| {
                 // Over terrain the surface is what the buffer holds, over the bare ellipsoid the hit.
                 let t = match cast.terrain {
-                    Terrain::Bare => hit?,
+                    Terrain::Bare | Terrain::Ceiling => hit?,
                     _ => hit.map(|_| lens.distance_m(depth))?,
                 };
-                Some(lens.eye_m + ray * t)
+                Some(origin_m + ray * t)
             })
             .collect();
         Self {
@@ -291,6 +338,13 @@ impl Surface {
             terrain: cast.terrain,
             depths,
             points_m,
+        }
+    }
+
+    pub fn depth_format(&self) -> wgpu::TextureFormat {
+        match self.lens.steps {
+            DepthSteps::Float => wgpu::TextureFormat::Depth32Float,
+            DepthSteps::Bits24 => wgpu::TextureFormat::Depth24Plus,
         }
     }
 
@@ -316,7 +370,7 @@ impl Surface {
         let (x, y) = (pixel as i64 % width, pixel as i64 / width);
         let around = (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| (x + dx, y + dy)));
         let mut nearest_m = f64::INFINITY;
-        let mut farthest_m = 0f64;
+        let mut farthest_m = f64::NEG_INFINITY;
         for (x, y) in around.filter(|&(x, y)| x >= 0 && y >= 0 && x < width && y < height) {
             for sample in 0..self.samples() as usize {
                 let index = sample * self.pixel_count() + (y * width + x) as usize;
@@ -328,6 +382,11 @@ impl Surface {
                 farthest_m = farthest_m.max(distance_m);
             }
         }
-        matches!(self.terrain, Terrain::Rough | Terrain::Deep) && farthest_m > 1.3 * nearest_m
+        let step_m = if self.lens.parallel {
+            50.0 * self.lens.pixel_m()
+        } else {
+            0.3 * nearest_m
+        };
+        matches!(self.terrain, Terrain::Rough | Terrain::Deep) && farthest_m - nearest_m > step_m
     }
 }

@@ -5,7 +5,7 @@ use std::fmt;
 use glam::{DVec2, DVec3};
 use globefill::{
     CoverageColors, Ellipsoid, FrameStats, Renderer, RendererOptions, SensorDisplay, SensorId,
-    SensorSet, SensorStyle, View, wgpu,
+    SensorSet, SensorStyle, View,
 };
 use rayon::prelude::*;
 
@@ -28,7 +28,7 @@ impl CountPainter {
     pub fn new(gpu: &Gpu, watchers: &[Watcher], surface: &Surface) -> Self {
         let options = RendererOptions {
             color_format: COLOR,
-            depth_format: wgpu::TextureFormat::Depth32Float,
+            depth_format: surface.depth_format(),
             depth: surface.range.convention(),
             sample_count: surface.samples(),
             ..Default::default()
@@ -174,18 +174,18 @@ fn off_px(watchers: &[Watcher], surface: &Surface, pixel: usize, drawn: u32) -> 
 /// Surface points within a radius of a pixel, and one unit of depth before and behind it.
 fn points_about(surface: &Surface, pixel: usize, middle_px: DVec2, radius_px: f64) -> Vec<DVec3> {
     let lens = &surface.lens;
-    let eye_m = lens.eye_m;
     let depth = surface.depths[pixel];
     let mut points: Vec<DVec3> = surface.points_m[pixel].into_iter().collect();
     points.extend(
         [depth.next_up(), depth.next_down()]
-            .map(|depth| eye_m + lens.ray(middle_px) * lens.distance_m(depth)),
+            .map(|depth| lens.point_m(middle_px, lens.distance_m(depth))),
     );
     for k in 0..24 {
         let angle = f64::from(k) * std::f64::consts::TAU / 24.0;
-        let ray = lens.ray(middle_px + radius_px * DVec2::from_angle(angle));
-        if let Some(t) = surface.terrain.hit(surface.figure(), eye_m, ray) {
-            points.push(eye_m + ray * t);
+        let at_px = middle_px + radius_px * DVec2::from_angle(angle);
+        let (origin_m, ray) = (lens.origin_m(at_px), lens.ray(at_px));
+        if let Some(t) = surface.terrain.hit(surface.figure(), origin_m, ray) {
+            points.push(origin_m + ray * t);
         }
     }
     points

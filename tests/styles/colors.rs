@@ -134,7 +134,7 @@ fn fills_are_laid_over_each_other_as_their_styles_say() {
 }
 
 /// What is left between full and gone.
-fn left(ramp: Option<Ramp>, at: f64) -> f64 {
+pub fn left(ramp: Option<Ramp>, at: f64) -> f64 {
     ramp.map_or(1.0, |Ramp { full, gone }| {
         let (full, gone) = (f64::from(full), f64::from(gone));
         ((at - gone) / (full - gone)).clamp(0.0, 1.0)
@@ -142,18 +142,19 @@ fn left(ramp: Option<Ramp>, at: f64) -> f64 {
 }
 
 /// Distance, metres that a pixel spans across the line of sight, and angle of view, of a pixel.
-fn seen(surface: &Surface, pixel: usize) -> Option<[f64; 3]> {
+pub fn seen(surface: &Surface, pixel: usize) -> Option<[f64; 3]> {
     let point_m = surface.points_m[pixel]?;
     let lens = &surface.lens;
     let at_px = middle_px(surface, pixel);
     let way = point_m - lens.eye_m;
     let along = lens.ray(at_px);
-    let pixel_rad = lens.ray(at_px + DVec2::Y) - along;
+    let (_, distance_m) = lens.project(point_m);
+    let [here, below] = [DVec2::ZERO, DVec2::Y].map(|step| lens.point_m(at_px + step, distance_m));
     let (foot, _) = figure().geodetic(point_m);
-    let sine = -way.normalize().dot(figure().normal(foot));
+    let sine = -along.normalize().dot(figure().normal(foot));
     Some([
         way.length(),
-        way.length() / along.length() * pixel_rad.length(),
+        here.distance(below),
         sine.clamp(-1.0, 1.0).asin(),
     ])
 }

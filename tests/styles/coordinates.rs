@@ -15,7 +15,7 @@ use crate::{
 };
 
 /// A picture in its place as the crate is asked for it.
-fn fill_of(image: ImageId, layout: &Layout, wrap: Wrap) -> ImageFill {
+pub fn fill_of(image: ImageId, layout: &Layout, wrap: Wrap) -> ImageFill {
     let placement = match layout.spot {
         Spot::Local { center, size_m } => Placement::Local {
             center,
@@ -40,7 +40,7 @@ fn fill_of(image: ImageId, layout: &Layout, wrap: Wrap) -> ImageFill {
     }
 }
 
-fn style_of(fill: ImageFill) -> FillStyle {
+pub fn style_of(fill: ImageFill) -> FillStyle {
     FillStyle {
         color: [0.0, 0.0, 0.0, 1.0],
         pattern: Some(Pattern::Image(fill)),
@@ -61,7 +61,7 @@ pub struct Off {
 }
 
 impl Off {
-    fn with(self, other: Self) -> Self {
+    pub fn with(self, other: Self) -> Self {
         Self {
             texels: self.texels.max(other.texels),
             px: self.px.max(other.px),
@@ -73,7 +73,13 @@ impl Off {
 }
 
 /// Compares a drawn picture with its coordinates, where it is enlarged and its waves are straight.
-fn judge(surface: &Surface, drawn: &[[u8; 4]], ramps: &Ramps, layout: &Layout, wrap: Wrap) -> Off {
+pub fn judge(
+    surface: &Surface,
+    drawn: &[[u8; 4]],
+    ramps: &Ramps,
+    layout: &Layout,
+    wrap: Wrap,
+) -> Off {
     let width = surface.size_px().x as usize;
     let uv_at = |pixel: usize| {
         let point_m = surface.points_m.get(pixel).copied().flatten()?;
@@ -123,8 +129,10 @@ fn level_texels(surface: &Surface, pixel: usize, ramps: &Ramps, layout: &Layout)
         return f64::INFINITY;
     };
     let ray = surface.lens.ray(middle_px(surface, pixel));
-    let next = surface.lens.ray(middle_px(surface, pixel) + DVec2::X);
-    let pixel_m = surface.lens.distance_m(surface.depths[pixel]) * (next - ray).length();
+    let distance_m = surface.lens.distance_m(surface.depths[pixel]);
+    let [here, beside] = [DVec2::ZERO, DVec2::X]
+        .map(|step| (surface.lens).point_m(middle_px(surface, pixel) + step, distance_m));
+    let pixel_m = here.distance(beside);
     let (foot, _) = figure().geodetic(point_m);
     let up = figure().normal(foot);
     // Terrain is taken as no more oblique than that.
@@ -173,7 +181,7 @@ fn about(at: LonLat, side_m: f64) -> Extents {
 }
 
 /// Layouts about a place, of which a texel takes some pixels.
-fn layouts(at: LonLat, side_m: f64) -> Vec<(Layout, Wrap)> {
+pub fn layouts(at: LonLat, side_m: f64) -> Vec<(Layout, Wrap)> {
     let extents = about(at, side_m);
     let angles = |geocentric| Spot::Angles {
         extents,

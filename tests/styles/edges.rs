@@ -24,7 +24,7 @@ fn across_m(surface: &Surface, sheet: &Sheet, at_px: DVec2) -> Option<f64> {
 /// By row, number of the line and side of it: how far, pixels across the edge, it is drawn from where it
 /// should be. Where an edge passes within a quarter of a pixel of the middle of one, the ink there tells
 /// how far, whatever the shape of the pixel.
-fn edges_off(
+pub fn edges_off(
     surface: &Surface,
     sheet: &Sheet,
     drawn: &[[u8; 4]],

@@ -14,7 +14,7 @@ mod hosts;
 mod images;
 mod ink;
 mod many;
-
+mod parallel;
 mod ramps;
 mod refusals;
 mod seams;

@@ -108,19 +108,22 @@ pub fn pose(at: LonLat, height_m: f64, share: f64) -> Pose {
 pub fn pixel_m(surface: &Surface) -> f64 {
     let lens = &surface.lens;
     let middle_px = lens.size_px.as_dvec2() * 0.5;
+    let origin_m = lens.origin_m(middle_px);
     let hit = surface
         .terrain
-        .hit(surface.figure(), lens.eye_m, lens.ray(middle_px));
-    let way = lens.ray(middle_px + DVec2::X) - lens.ray(middle_px);
-    hit.expect("the middle shows the ground") * way.length()
+        .hit(surface.figure(), origin_m, lens.ray(middle_px));
+    let distance_m = hit.expect("the middle shows the ground");
+    let [here, beside] =
+        [DVec2::ZERO, DVec2::X].map(|step| lens.point_m(middle_px + step, distance_m));
+    here.distance(beside)
 }
 
 /// The surface point seen at a point of the picture.
 pub fn point_at(surface: &Surface, at_px: DVec2) -> Option<DVec3> {
     let lens = &surface.lens;
-    let ray = lens.ray(at_px);
-    let t = surface.terrain.hit(surface.figure(), lens.eye_m, ray)?;
-    Some(lens.eye_m + ray * t)
+    let (origin_m, ray) = (lens.origin_m(at_px), lens.ray(at_px));
+    let t = surface.terrain.hit(surface.figure(), origin_m, ray)?;
+    Some(origin_m + ray * t)
 }
 
 /// The middle of a pixel.

@@ -18,10 +18,10 @@ use crate::{
 
 /// Rays a pixel, each way.
 const RAYS: u32 = 10;
-const AT: LonLat = LonLat::new(11.3, 47.2);
+pub const AT: LonLat = LonLat::new(11.3, 47.2);
 
 /// A circle whose boundary passes under the eye, its radius fitting the view.
-fn circle(height_m: f64) -> Zone {
+pub fn circle(height_m: f64) -> Zone {
     let radius_m = (0.6 * height_m).clamp(20.0, 3e6);
     let centre = LonLat::new(11.3, 47.2 - (radius_m / 111.2e3));
     Zone::circle(centre, radius_m)
@@ -29,7 +29,7 @@ fn circle(height_m: f64) -> Zone {
 
 /// For each pixel the share of its rays for which `covered` says so of the metres outside the circle.
 /// Pixels that show sky are none.
-fn shares(surface: &Surface, zone: &Zone, covered: impl Fn(f64) -> bool) -> Vec<Option<f64>> {
+pub fn shares(surface: &Surface, zone: &Zone, covered: impl Fn(f64) -> bool) -> Vec<Option<f64>> {
     let oracle = ZoneOracle::new(zone, Ellipsoid::WGS84);
     let width = surface.size_px().x as usize;
     let share = |pixel: usize| {
@@ -48,7 +48,7 @@ fn shares(surface: &Surface, zone: &Zone, covered: impl Fn(f64) -> bool) -> Vec<
 
 /// Root mean square and greatest difference of alphas from shares over the pixels that are partly covered
 /// or drawn so, and the drawn sum over the wanted one.
-fn compare(texels: &[[u8; 4]], shares: &[Option<f64>]) -> (f64, f64, f64) {
+pub fn compare(texels: &[[u8; 4]], shares: &[Option<f64>]) -> (f64, f64, f64) {
     let (mut squares, mut count, mut worst) = (0.0, 0, 0.0f64);
     let (mut drawn, mut wanted) = (0.0, 0.0);
     for (texel, share) in texels.iter().zip(shares) {
@@ -65,7 +65,7 @@ fn compare(texels: &[[u8; 4]], shares: &[Option<f64>]) -> (f64, f64, f64) {
     ((squares / f64::from(count)).sqrt(), worst, drawn / wanted)
 }
 
-fn stroked(stroke: Stroke) -> FillStyle {
+pub fn stroked(stroke: Stroke) -> FillStyle {
     FillStyle {
         color: [0.0; 4],
         stroke: Some(stroke),

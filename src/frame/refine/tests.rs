@@ -7,6 +7,7 @@ use glam::{DMat3, DMat4, DVec4, UVec2};
 use super::*;
 use crate::{
     fill_mesh::{BoundaryVertex, Bounds},
+    frame::lens::Pixel,
     geodetic::LonLat,
     options::{Camera, Frame, HeightRange, RendererOptions},
     region::EdgeKind,
@@ -87,7 +88,7 @@ fn a_telescope_does_not_refine_without_end() {
         LonLat::new(11.2, 47.3),
     );
     let mut sight = looking_down(&mesh, 100.0, HeightRange::default());
-    sight.pixel_rad = 1e-9;
+    sight.pixel = Pixel::Angle(1e-9);
     let mut patch = Patch::default();
     patch.refine_arc(&mesh, 0, &sight);
     assert!(patch.vertices.len() < 200_000, "{}", patch.vertices.len());

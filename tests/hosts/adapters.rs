@@ -1,8 +1,6 @@
 //! Hosts with poorer adapters and with bad frames: the same picture, or a typed error.
 
-mod common;
-
-use common::{
+use crate::common::{
     camera::Pose,
     draw::IdPainter,
     figure::Figure,
@@ -156,11 +154,9 @@ fn bad_frames_and_styles_are_typed_errors_and_change_nothing() {
         let refused = painter.renderer.prepare(&gpu.queue, &mut view, &frame);
         assert_eq!(refused, Err(RendererError::InvalidFrame(field)));
     }
-    let mut orthographic = good;
-    orthographic.camera.clip_from_view = DMat4::IDENTITY;
-    let refused = painter
-        .renderer
-        .prepare(&gpu.queue, &mut view, &orthographic);
+    let mut oblique = good;
+    oblique.camera.clip_from_view.x_axis.z = 0.1;
+    let refused = painter.renderer.prepare(&gpu.queue, &mut view, &oblique);
     assert!(matches!(refused, Err(RendererError::Unsupported(_))));
     for alpha in [f32::NAN, -0.1, 1.5] {
         let style = FillStyle {

@@ -1,0 +1,5 @@
+// What kind of host it is; the rest is compiled away.
+
+// Lines of sight are parallel: w is 1, and distances are along the view axis.
+override PARALLEL: bool = false;
+

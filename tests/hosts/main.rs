@@ -1,0 +1,13 @@
+//! Hosts of all kinds: whatever the lens, the depth buffer and the adapter, the same answers or a typed
+//! error.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod adapters;
+mod gate;
+mod lenses;
+mod lost_device;
+mod parallel;
+mod underground;
+mod viewports;
