@@ -8,6 +8,8 @@ pub(crate) mod layers;
 pub(crate) mod placed;
 pub(crate) mod reference;
 pub(crate) mod refine;
+#[cfg(test)]
+mod refine_tests;
 pub(crate) mod select;
 pub(crate) mod sensor_record;
 pub(crate) mod sensor_records;
