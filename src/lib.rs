@@ -136,6 +136,8 @@
 //! that rises by less than a millionth of the distance to the eye, or by decimetres, is hard to tell from
 //! the ellipsoid: there the limb may be off by a quarter of a pixel.
 //!
+//! `docs/accuracy.md` in the repository lists the bound of every stage, and the test that measures it.
+//!
 //! # Answers
 //!
 //! What the pixels show can be asked for exactly, in double precision, from the true boundaries:

@@ -2,8 +2,8 @@
 //! frame.
 //!
 //! Where the drawn boundary lies is known between pixel centres on either side of it: the true distance of
-//! each centre says how far it is displaced at least, or at most. A few dozen of them bound the
-//! displacement to some hundredths of a pixel.
+//! each centre says how far it is displaced at least, or at most. Some hundred of them bound the
+//! displacement to a hundredth of a pixel or two.
 
 mod common;
 
@@ -21,11 +21,13 @@ use globefill::{CountTechnique, EdgeKind, Ellipsoid, LonLat, View};
 
 const SIZE: UVec2 = UVec2::new(320, 180);
 /// Cells of the picture in which a boundary is taken to be displaced alike.
-const CELL_PX: UVec2 = UVec2::new(80, 90);
+const CELL_PX: UVec2 = UVec2::new(160, 180);
 const FRAMES: u32 = 6;
 /// Pixels that the camera moves from frame to frame.
 const STEP_PX: f64 = 0.37;
 const MOST_PX: f64 = 0.05;
+/// Displacements count that are known as well as this: not where a boundary meets pixels in a row alike.
+const KNOWN_PX: f64 = 0.024;
 
 /// Bounds of a displacement to the left, pixels.
 #[derive(Clone, Copy, Debug)]
@@ -45,6 +47,11 @@ impl Displaced {
         (self.least - other.most)
             .max(other.least - self.most)
             .max(0.0)
+    }
+
+    /// How far they differ at most.
+    fn apart_at_most(self, other: Self) -> f64 {
+        (self.most - other.least).max(other.most - self.least)
     }
 
     fn width(self) -> f64 {
@@ -96,27 +103,26 @@ fn displaced(
     found
 }
 
-/// The greatest displacement and the greatest between consecutive frames, pixels, and how well they are
-/// known at worst.
+/// The greatest displacement, and the greatest between consecutive frames at least and at most, pixels.
 #[derive(Clone, Copy, Debug, Default)]
 struct Jitter {
     off_px: f64,
     between_px: f64,
-    doubt_px: f64,
+    at_most_px: f64,
     cells: usize,
 }
 
 impl Jitter {
     /// With what two consecutive frames show of one cell.
     fn add(&mut self, before: Option<Displaced>, now: Displaced) {
-        let known = |cell: &Displaced| cell.width() < 0.1;
+        let known = |cell: &Displaced| cell.width() < KNOWN_PX;
         if !known(&now) {
             return;
         }
         self.off_px = self.off_px.max(now.least).max(-now.most);
         if let Some(before) = before.filter(known) {
             self.between_px = self.between_px.max(before.apart(now));
-            self.doubt_px = self.doubt_px.max(before.width().max(now.width()));
+            self.at_most_px = self.at_most_px.max(before.apart_at_most(now));
             self.cells += 1;
         }
     }
@@ -191,11 +197,11 @@ fn pairs() -> [(&'static str, Pair); 4] {
         ),
         (
             "rhumb",
-            Pair::about(EdgeKind::Rhumb, -75.3, -33.0, 8.0, 0.9),
+            Pair::about(EdgeKind::Rhumb, -75.3, -33.0, 58.0, 0.9),
         ),
         (
             "antimeridian",
-            Pair::about(EdgeKind::Straight, 180.0, -17.0, 80.0, 0.9),
+            Pair::about(EdgeKind::Straight, 180.0, -17.0, 67.0, 0.9),
         ),
         ("pole", over_the_pole),
     ]
@@ -213,13 +219,13 @@ fn boundaries_stand_still_under_slow_moves() {
                 println!(
                     "{name} {terrain:?} {height_m} m {count:?} budget {budget_px}: {jitter:.4?}"
                 );
-                assert!(jitter.cells > 4 && jitter.doubt_px < 0.1, "{jitter:?}");
-                assert!(jitter.between_px <= MOST_PX, "{jitter:?}");
-                worst = worst.max(jitter.between_px);
+                assert!(jitter.cells > 1, "{jitter:?}");
+                assert!(jitter.at_most_px <= MOST_PX, "{jitter:?}");
+                worst = worst.max(jitter.at_most_px);
             }
         }
     }
-    println!("between frames: {worst:.4} px");
+    println!("between frames: {worst:.4} px at most");
 }
 
 /// The instrument tells a jump: a boundary drawn a fifth of a pixel aside.

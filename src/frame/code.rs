@@ -177,6 +177,7 @@ mod tests {
                 }
             }
         }
+        println!("{valid} of {tried} false sums are some id's code");
         assert!(
             f64::from(valid) < 0.04 * f64::from(tried),
             "{valid} of {tried}"

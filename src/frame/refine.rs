@@ -304,3 +304,5 @@ fn mesh_deviation_m(mesh: &FillMesh, arc: &Arc) -> f64 {
 
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod wall_tests;
