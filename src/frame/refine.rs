@@ -369,6 +369,7 @@ mod tests {
             terrain,
             pixel_error: 0.0,
             host_pixel_error: 1.0,
+            log_depth: None,
         };
         Sight::new(mesh.ellipsoid, 1_000.0, &frame, &RendererOptions::default()).expect("valid")
     }

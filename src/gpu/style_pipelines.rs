@@ -5,13 +5,9 @@ use std::collections::HashMap;
 use glam::UVec2;
 
 use crate::{
-    gpu::edge_pipelines::EdgePipelines,
-    gpu::edge_view::edge_target,
-    gpu::pipelines::{layout, parallel_constants},
-    gpu::style_table::Needs,
-    gpu::surface_binding::surface_layout,
-    options::RendererOptions,
-    shaders,
+    frame::lens::LensKind, gpu::edge_pipelines::EdgePipelines, gpu::edge_view::edge_target,
+    gpu::pipelines::layout, gpu::style_table::Needs, gpu::surface_binding::surface_layout,
+    options::RendererOptions, shaders,
 };
 
 /// Layouts, the shader module and the pipelines made so far.
@@ -26,8 +22,7 @@ pub(crate) struct StylePipelines {
     pub edges: Option<EdgePipelines>,
     pipeline_layout: wgpu::PipelineLayout,
     module: wgpu::ShaderModule,
-    /// By what styles need and whether lines of sight are parallel.
-    made: HashMap<(Needs, bool), wgpu::RenderPipeline>,
+    made: HashMap<(Needs, LensKind), wgpu::RenderPipeline>,
 }
 
 impl StylePipelines {
@@ -75,27 +70,27 @@ impl StylePipelines {
     }
 
     /// Compiles the pipeline if it does not exist yet.
-    pub(crate) fn ensure(&mut self, device: &wgpu::Device, needs: Needs, parallel: bool) {
-        if !self.made.contains_key(&(needs, parallel)) {
-            let pipeline = self.make(device, needs, parallel);
-            self.made.insert((needs, parallel), pipeline);
+    pub(crate) fn ensure(&mut self, device: &wgpu::Device, needs: Needs, lens: LensKind) {
+        if !self.made.contains_key(&(needs, lens)) {
+            let pipeline = self.make(device, needs, lens);
+            self.made.insert((needs, lens), pipeline);
         }
     }
 
     /// A pipeline that `ensure` was called for.
-    pub(crate) fn get(&self, needs: Needs, parallel: bool) -> Option<&wgpu::RenderPipeline> {
-        self.made.get(&(needs, parallel))
+    pub(crate) fn get(&self, needs: Needs, lens: LensKind) -> Option<&wgpu::RenderPipeline> {
+        self.made.get(&(needs, lens))
     }
 
-    fn make(&self, device: &wgpu::Device, needs: Needs, parallel: bool) -> wgpu::RenderPipeline {
+    fn make(&self, device: &wgpu::Device, needs: Needs, lens: LensKind) -> wgpu::RenderPipeline {
         let samples = self.options.sample_count;
         let entry = if samples > 1 {
             "fs_styled_sample"
         } else {
             "fs_styled"
         };
-        let [parallel] = parallel_constants(parallel);
-        let constants = [("NEEDS", f64::from(needs)), parallel];
+        let [parallel, logarithmic] = lens.constants();
+        let constants = [("NEEDS", f64::from(needs)), parallel, logarithmic];
         let options = wgpu::PipelineCompilationOptions {
             constants: &constants,
             ..Default::default()

@@ -1,6 +1,7 @@
 //! What a view keeps of styles: where its eye finds the patterns, and what is bound.
 
 use crate::{
+    frame::lens::LensKind,
     frame::placed::{PatternPlace, Placed},
     frame::reference::Reference,
     frame::sight_uniform::SightUniform,
@@ -27,8 +28,7 @@ pub(crate) struct StyleView {
     layers: Vec<Option<StyledLayer>>,
     /// Which layer tables are bound.
     revision: (u64, CountTechnique),
-    /// Whether lines of sight are parallel.
-    parallel: bool,
+    lens: LensKind,
 }
 
 struct StyledLayer {
@@ -47,8 +47,7 @@ pub(crate) struct StyleFrame<'a> {
     pub revision: (u64, CountTechnique),
     pub reference: Reference,
     pub uniform: SightUniform,
-    /// Whether lines of sight are parallel.
-    pub parallel: bool,
+    pub lens: LensKind,
     pub edges: EdgeFrame<'a>,
     /// The meshes, in the order they are drawn in.
     pub subjects: &'a [EdgeSubject<'a>],
@@ -64,7 +63,7 @@ impl StyleView {
             edge_cost: EdgeCost::default(),
             layers: Vec::new(),
             revision: (0, CountTechnique::default()),
-            parallel: false,
+            lens: LensKind::default(),
         }
     }
 
@@ -82,7 +81,7 @@ impl StyleView {
             .iter()
             .map(|place: &PatternPlace| place.seen_from(&with.reference))
             .collect();
-        self.parallel = with.parallel;
+        self.lens = with.lens;
         let bytes = self.surface.write(device, queue, &with.uniform);
         let contents = bytemuck::cast_slice(&placed);
         let (uploaded, moved) = self.places.write(device, queue, contents);
@@ -177,7 +176,7 @@ impl StyleView {
         let (Some(styled), Some(surface)) = (styled, self.surface.group()) else {
             return;
         };
-        let Some(pipeline) = pipelines.get(styled.needs, self.parallel) else {
+        let Some(pipeline) = pipelines.get(styled.needs, self.lens) else {
             return;
         };
         pass.set_pipeline(pipeline);
