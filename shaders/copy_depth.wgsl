@@ -3,5 +3,5 @@
 
 @fragment
 fn fs_copy_depth(@builtin(position) pixel: vec4<f32>) -> @builtin(frag_depth) f32 {
-    return textureLoad(depth, vec2<i32>(pixel.xy), 0);
+    return copied(textureLoad(depth, vec2<i32>(pixel.xy), 0));
 }

@@ -6,5 +6,5 @@ fn fs_copy_depth(
     @builtin(position) pixel: vec4<f32>,
     @builtin(sample_index) sample: u32,
 ) -> @builtin(frag_depth) f32 {
-    return textureLoad(depth, vec2<i32>(pixel.xy), i32(sample));
+    return copied(textureLoad(depth, vec2<i32>(pixel.xy), i32(sample)));
 }

@@ -11,7 +11,7 @@ struct Sight {
     right: vec4<f32>,
     down: vec4<f32>,
     // Depth d lies at distance y / ((d - z) - x) along the view axis, or ((d - z) - x) / y where lines of
-    // sight are parallel; w is the depth of the sky.
+    // sight are parallel, or (2^(x d) - 1) y + z where depths are logarithmic; w is the depth of the sky.
     depth: vec4<f32>,
     // x: equatorial radius a; y: (a/b)^2; z: tau of the eye, see place_of; w: polar radius b.
     ellipsoid: vec4<f32>,
@@ -111,6 +111,9 @@ fn is_sky(depth: f32) -> bool {
 
 // Distance along the view axis.
 fn distance_of(depth: f32) -> f32 {
+    if LOGARITHMIC {
+        return (exp2(depth * sight.depth.x) - 1.0) * sight.depth.y + sight.depth.z;
+    }
     let step = (depth - sight.depth.z) - sight.depth.x;
     return select(sight.depth.y / step, step / sight.depth.y, PARALLEL);
 }

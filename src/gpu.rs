@@ -1,6 +1,7 @@
 //! Upload, and the passes that count and resolve.
 
 pub(crate) mod count;
+pub(crate) mod count_cost;
 pub(crate) mod edge_pipelines;
 #[cfg(test)]
 mod edge_tests;
@@ -14,6 +15,8 @@ pub(crate) mod layer_tables;
 pub(crate) mod pick_pipeline;
 pub(crate) mod pipelines;
 pub(crate) mod planes;
+pub(crate) mod projection;
+pub(crate) mod recipe;
 pub(crate) mod sensor_pipelines;
 pub(crate) mod sensor_view;
 pub(crate) mod stream_buffer;

@@ -52,8 +52,9 @@
 //! # Hosts
 //!
 //! Perspectives from telescopes to 150° and orthographic projections, which may take turns from frame to
-//! frame; depth that runs either way, with or without a far plane, in 32-bit floats or 24 bits; the eye
-//! anywhere, below the surface too. See [`Camera::clip_from_view`] and [`RendererOptions::depth`]. A renderer
+//! frame; depth that runs either way, with or without a far plane, or logarithmically, in 32-bit floats or
+//! 24 bits; the eye anywhere, below the surface too. See [`Camera::clip_from_view`],
+//! [`RendererOptions::depth`] and [`Frame::log_depth`]. A renderer
 //! draws any number of viewports in a frame, each with its [`View`]; a view follows the size of its window.
 //!
 //! When its device is lost, a host drops renderers and views and makes them again on a new one: from the same
@@ -214,7 +215,9 @@ pub use crate::{
     length::Length,
     limits::{Excess, Limits, Quantity},
     locator::Locator,
-    options::{Camera, CountTechnique, DepthConvention, Frame, HeightRange, RendererOptions},
+    options::{
+        Camera, CountTechnique, DepthConvention, Frame, HeightRange, LogDepth, RendererOptions,
+    },
     outline::{Cap, Measures, Outline, Stretch},
     pick::{Pick, PickedFill},
     region::{EdgeKind, Inside, Polygon, Region, Ring},

@@ -29,9 +29,11 @@ pub struct RendererOptions {
     pub color_format: wgpu::TextureFormat,
     /// Format of the host's depth texture, of 24 bits or more. Its usage must include
     /// `RENDER_ATTACHMENT`, and `TEXTURE_BINDING` for sensors, for patterns, fades, strokes and smooth
-    /// edges, and where the stencil counts: if asked for, and on devices without `FLOAT32_BLENDABLE`. A format with stencil must have a single layer and level.
+    /// edges, for logarithmic depths, and where the stencil counts: if asked for, and on devices without
+    /// `FLOAT32_BLENDABLE`. A format with stencil must have a single layer and level.
     pub depth_format: wgpu::TextureFormat,
-    /// Which way the depth buffer runs.
+    /// Which way the depth buffer runs, in frames whose depths are not logarithmic
+    /// ([`Frame::log_depth`]).
     pub depth: DepthConvention,
     /// Samples a pixel of the host's depth texture and of the resolve pass: 1 or 4.
     pub sample_count: u32,
@@ -88,6 +90,46 @@ pub struct HeightRange {
     pub max_m: f64,
 }
 
+/// Depths in proportion to a logarithm of the distance w along the view axis, as hosts write them that see
+/// from centimetres to other planets:
+///
+/// depth = log₂(1 + `per_m` · (w − `from_m`)) / log₂(1 + `per_m` · (`far_m` − `from_m`))
+///
+/// The sky is 1. A host writes that for each fragment. Where it does so for each vertex, depths between are
+/// others, and what is drawn is off by as much, unless its triangles are so small that it does not show.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LogDepth {
+    /// Nothing nearer is drawn, metres.
+    pub near_m: f64,
+    /// Where depth is 1, metres.
+    pub far_m: f64,
+    /// Where depth is 0, metres.
+    pub from_m: f64,
+    /// By how much the logarithm's argument grows per metre: distances below its inverse are told apart in
+    /// equal steps, those beyond in proportion.
+    pub per_m: f64,
+}
+
+impl LogDepth {
+    /// log₂(1 + w) / log₂(1 + far), which is what three.js writes.
+    pub fn new(near_m: f64, far_m: f64) -> Self {
+        Self {
+            near_m,
+            far_m,
+            from_m: 0.0,
+            per_m: 1.0,
+        }
+    }
+
+    /// log₂(1 + w − near) / log₂(1 + far − near), which is what CesiumJS writes.
+    pub fn from_near(near_m: f64, far_m: f64) -> Self {
+        Self {
+            from_m: near_m,
+            ..Self::new(near_m, far_m)
+        }
+    }
+}
+
 /// What a view looks at in one frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
@@ -102,6 +144,10 @@ pub struct Frame {
     /// How far, pixels, the host's surface may lie below the given heights because its mesh is
     /// coarse when far.
     pub host_pixel_error: f64,
+    /// How depths follow from distances, if logarithmically: in perspectives, whose row of depth is then
+    /// not asked. The depth needs `TEXTURE_BINDING`; counting starts with a pass that copies it. None: as
+    /// [`Camera::clip_from_view`] and [`RendererOptions::depth`] say.
+    pub log_depth: Option<LogDepth>,
 }
 
 impl Frame {
@@ -114,6 +160,7 @@ impl Frame {
             terrain: HeightRange::default(),
             pixel_error: 0.25,
             host_pixel_error: 1.0,
+            log_depth: None,
         }
     }
 }

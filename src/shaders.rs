@@ -6,6 +6,8 @@ const FACE: &str = include_str!("../shaders/face.wgsl");
 const FACE_UNCLIPPED: &str = include_str!("../shaders/face_unclipped.wgsl");
 const COUNT: &str = include_str!("../shaders/count.wgsl");
 const SCREEN: &str = include_str!("../shaders/screen.wgsl");
+const COPY_AS_IS: &str = include_str!("../shaders/copy_as_is.wgsl");
+const COPY_LINEAR: &str = include_str!("../shaders/copy_linear.wgsl");
 const COPY_DEPTH: &str = include_str!("../shaders/copy_depth.wgsl");
 const COPY_DEPTH_MULTISAMPLED: &str = include_str!("../shaders/copy_depth_multisampled.wgsl");
 const PLANES_PACKED: &str = include_str!("../shaders/planes_packed.wgsl");
@@ -55,14 +57,15 @@ pub fn count(unclipped: bool) -> String {
     }
 }
 
-/// The copy of the host's depth that the stencil technique works on.
-pub fn copy_depth(sample_count: u32) -> String {
+/// The copy of the host's depth that the stencil technique works on, and counting in logarithmic depths.
+pub fn copy_depth(sample_count: u32, logarithmic: bool) -> String {
+    let copied = if logarithmic { COPY_LINEAR } else { COPY_AS_IS };
     let copy = if sample_count > 1 {
         COPY_DEPTH_MULTISAMPLED
     } else {
         COPY_DEPTH
     };
-    [SCREEN, copy].concat()
+    [SCREEN, copied, copy].concat()
 }
 
 /// Decoding and colouring.
@@ -186,8 +189,10 @@ pub fn all() -> Vec<(&'static str, String)> {
     vec![
         ("count", count(false)),
         ("count_unclipped", count(true)),
-        ("copy_depth", copy_depth(1)),
-        ("copy_depth_multisampled", copy_depth(4)),
+        ("copy_depth", copy_depth(1, false)),
+        ("copy_depth_multisampled", copy_depth(4, false)),
+        ("copy_log_depth", copy_depth(1, true)),
+        ("copy_log_depth_multisampled", copy_depth(4, true)),
         ("resolve", resolve(1)),
         ("resolve_multisampled", resolve(4)),
         ("resolve_styled", resolve_styled(1, true)),

@@ -9,7 +9,8 @@ use crate::{
     frame_stats::FrameStats,
     gpu::fixed_point::FixedEye,
     gpu::gpu_mesh::GpuMesh,
-    gpu::pipelines::{Pipelines, Projection},
+    gpu::pipelines::Pipelines,
+    gpu::projection::Projection,
     gpu::sensor_view::SensorView,
     gpu::stream_buffer::StreamBuffer,
     gpu::style_view::StyleView,
@@ -40,6 +41,8 @@ pub(crate) struct Prepared {
     pub technique: CountTechnique,
     pub mirrored: bool,
     pub projection: Projection,
+    /// What a copy of logarithmic depths is made with: `logarithm` of copy_linear.wgsl.
+    pub logarithm: Option<[f32; 4]>,
     pub stats: FrameStats,
 }
 

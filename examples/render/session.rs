@@ -122,6 +122,7 @@ impl Work<'_> {
             terrain: self.ground.heights(),
             pixel_error: self.arguments.pixel_error,
             host_pixel_error: 0.0,
+            log_depth: None,
         }
     }
 

@@ -5,7 +5,7 @@ use glam::{DMat2, DMat3, DMat4, DVec2, DVec3, DVec4, Vec4Swizzles as _};
 use crate::{
     ellipsoid::Ellipsoid,
     error::RendererError,
-    options::{DepthConvention, Frame, RendererOptions},
+    options::{DepthConvention, Frame, LogDepth, RendererOptions},
 };
 
 /// Slack, metres, for rounding of a host that draws its surface in single precision.
@@ -14,6 +14,31 @@ pub(crate) const SLACK_M: f64 = 0.25;
 const SLACK_STEPS: f64 = 4.0;
 /// The least angle, radians, that a pixel spans: single precision tells no finer ones apart.
 const FINEST_PIXEL_RAD: f64 = 1e-5;
+
+/// How far exponentials of drivers may be off, in parts.
+const SLACK_EXP: f64 = 1e-5;
+
+/// How distances follow from depths, and points from distances.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub(crate) enum LensKind {
+    #[default]
+    Perspective,
+    /// A perspective with logarithmic depths.
+    Logarithmic,
+    /// Parallel lines of sight.
+    Parallel,
+}
+
+impl LensKind {
+    /// The overrides of host.wgsl.
+    pub(crate) fn constants(self) -> [(&'static str, f64); 2] {
+        let is = |kind| f64::from(u8::from(self == kind));
+        [
+            ("PARALLEL", is(Self::Parallel)),
+            ("LOGARITHMIC", is(Self::Logarithmic)),
+        ]
+    }
+}
 
 /// What a pixel spans in the middle of the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,8 +77,9 @@ pub(crate) struct Lens {
     /// From metres relative to that point along ECEF axes: x and y of clip space, distance along the view
     /// axis, w.
     pub clip_from_relative: DMat4,
-    /// Whether lines of sight are parallel.
-    pub parallel: bool,
+    pub kind: LensKind,
+    /// The host's logarithm. Depths are then copied, and those below are the copy's.
+    pub log_depth: Option<LogDepth>,
     /// Depth is `depth[0]` + `depth[1]` / distance; where lines of sight are parallel, · distance.
     pub depth: [f64; 2],
     /// Nothing nearer is drawn, metres along the view axis; may be negative where lines are parallel.
@@ -76,7 +102,20 @@ impl Lens {
     ) -> Result<Self, RendererError> {
         let rows = frame.camera.clip_from_view.transpose();
         let oblique = rows.z_axis.xy() != DVec2::ZERO;
-        let lens = if rows.w_axis == DVec4::new(0.0, 0.0, -1.0, 0.0) && !oblique {
+        let through_eye = rows.w_axis == DVec4::new(0.0, 0.0, -1.0, 0.0);
+        let lens = if let Some(log_depth) = frame.log_depth {
+            check(&log_depth)?;
+            let copied = |lens| Self {
+                kind: LensKind::Logarithmic,
+                log_depth: Some(log_depth),
+                depth: [0.0, log_depth.near_m],
+                near_m: log_depth.near_m,
+                far_plane: false,
+                ..lens
+            };
+            let lens = through_eye.then(|| Self::perspective(frame, convention));
+            lens.flatten().map(copied)
+        } else if through_eye && !oblique {
             Self::perspective(frame, convention)
         } else if rows.w_axis == DVec4::W && !oblique {
             Self::parallel(frame, convention, ellipsoid, height_m)
@@ -85,13 +124,13 @@ impl Lens {
         };
         let lens = lens.ok_or(RendererError::Unsupported(
             "camera.clip_from_view must look along -z, as a perspective (w = -z) or orthographically \
-             (w = 1), not sheared and with a near plane at right angles to the view",
+             (w = 1, without log_depth), not sheared and with a near plane at right angles to the view",
         ))?;
         let whole = lens.clip_from_relative.is_finite()
             && lens.eye_ecef_m.is_finite()
             && lens.spans.is_finite()
             && lens.near_m.is_finite()
-            && (lens.parallel || lens.near_m > 0.0);
+            && (lens.is_parallel() || lens.near_m > 0.0);
         whole
             .then_some(lens)
             .ok_or(RendererError::InvalidFrame("camera.clip_from_view"))
@@ -109,7 +148,8 @@ impl Lens {
         Some(Self {
             eye_ecef_m: camera.eye_ecef_m,
             clip_from_relative: clip_from_relative(rows, camera.view_from_ecef),
-            parallel: false,
+            kind: LensKind::Perspective,
+            log_depth: None,
             depth: [constant, inverse_m],
             near_m: inverse_m / (near_depth - constant),
             far_plane: (constant - far_depth).abs() > 1e-12,
@@ -152,7 +192,8 @@ impl Lens {
         Some(Self {
             eye_ecef_m: start_m + axis * ahead_m,
             clip_from_relative: clip_from_relative(rows, camera.view_from_ecef),
-            parallel: true,
+            kind: LensKind::Parallel,
+            log_depth: None,
             depth: [depth, slope],
             near_m,
             far_plane: true,
@@ -160,10 +201,14 @@ impl Lens {
         })
     }
 
+    pub(crate) fn is_parallel(&self) -> bool {
+        self.kind == LensKind::Parallel
+    }
+
     /// The smaller of what a pixel spans across and down.
     pub(crate) fn pixel(&self) -> Pixel {
         let least = self.spans.min_element();
-        if self.parallel {
+        if self.is_parallel() {
             Pixel::Length(least)
         } else {
             Pixel::Angle(least)
@@ -178,7 +223,11 @@ impl Lens {
     /// Slack for the host's depth steps: constant, linear and quadratic coefficient of the distance.
     pub(crate) fn slack(&self, options: &RendererOptions) -> [f64; 3] {
         let step = SLACK_STEPS * 2f64.powi(-24);
-        if self.parallel {
+        if let Some(log) = &self.log_depth {
+            let relative = step * std::f64::consts::LN_2 * log_range(log) + SLACK_EXP;
+            return [SLACK_M + relative / log.per_m, relative, 0.0];
+        }
+        if self.is_parallel() {
             return [SLACK_M + step / self.depth[1].abs(), step, 0.0];
         }
         let float = matches!(
@@ -190,6 +239,24 @@ impl Lens {
             _ => [SLACK_M, step, step / self.near_m],
         }
     }
+}
+
+/// The logarithm at the far plane.
+pub(crate) fn log_range(log: &LogDepth) -> f64 {
+    (1.0 + log.per_m * (log.far_m - log.from_m)).log2()
+}
+
+fn check(log: &LogDepth) -> Result<(), RendererError> {
+    let finite = [log.near_m, log.far_m, log.from_m, log.per_m]
+        .iter()
+        .all(|number| number.is_finite());
+    let sound = finite
+        && log.near_m > 0.0
+        && log.per_m > 0.0
+        && log.from_m <= log.near_m
+        && log.far_m > log.near_m;
+    let error = RendererError::InvalidFrame("log_depth");
+    sound.then_some(()).ok_or(error)
 }
 
 /// Depths of the near and of the far plane.

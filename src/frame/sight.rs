@@ -6,9 +6,9 @@ use crate::{
     ellipsoid::Ellipsoid,
     error::RendererError,
     fill_mesh::Bounds,
-    frame::lens::{Lens, Pixel, SLACK_M},
+    frame::lens::{Lens, LensKind, Pixel, SLACK_M},
     frame::window::Window,
-    options::{Frame, RendererOptions},
+    options::{Frame, LogDepth, RendererOptions},
 };
 
 /// Smallest displacement, pixels, that refinement works towards: half the 1/32 px of rounding that
@@ -69,6 +69,9 @@ pub(crate) struct Sight {
     pub clip_from_relative: DMat4,
     /// Whether lines of sight are parallel.
     pub parallel: bool,
+    pub kind: LensKind,
+    /// The host's logarithm; what is said of depths below is then said of a copy of them.
+    pub log_depth: Option<LogDepth>,
     /// Whether the projection mirrors the picture.
     pub mirrored: bool,
     /// Whether depth ends at a far plane.
@@ -115,7 +118,7 @@ impl Sight {
             slack: [constant, linear, quadratic],
         };
         let push = lens.spans.max_element() * frame.host_pixel_error;
-        if lens.parallel {
+        if lens.is_parallel() {
             extrusion.bottom_m = extrusion.bottom_m.min(-push.min(limit_m));
             extrusion.slack[0] += snapped;
         } else {
@@ -134,7 +137,9 @@ impl Sight {
             side_planes: side_planes.map(|plane| plane / plane.xyz().length()),
             eye_ecef_m: lens.eye_ecef_m,
             clip_from_relative: lens.clip_from_relative,
-            parallel: lens.parallel,
+            parallel: lens.is_parallel(),
+            kind: lens.kind,
+            log_depth: lens.log_depth,
             far_plane: lens.far_plane,
             depth: lens.depth,
             near_m: lens.near_m,

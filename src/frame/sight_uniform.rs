@@ -2,7 +2,10 @@
 
 use glam::{DMat3, DVec3, UVec2, Vec4Swizzles as _};
 
-use crate::{frame::reference::Reference, frame::sight::Sight, options::DepthConvention};
+use crate::{
+    frame::lens::log_range, frame::reference::Reference, frame::sight::Sight,
+    options::DepthConvention,
+};
 
 /// Pixels across a tile; as in tile.wgsl.
 pub(crate) const TILE: u32 = 8;
@@ -56,11 +59,15 @@ impl SightUniform {
         } else {
             constant.round()
         };
-        let [behind_x, behind_y, behind_z] = (-sight.from_host_eye_m).to_array();
         let sky = match convention {
-            DepthConvention::Reversed => 0.0,
-            DepthConvention::Standard => 1.0,
+            DepthConvention::Reversed if sight.log_depth.is_none() => 0.0,
+            _ => 1.0,
         };
+        let depth = match &sight.log_depth {
+            Some(log) => [log_range(log), 1.0 / log.per_m, log.from_m, sky],
+            None => [constant - whole, slope, whole, sky],
+        };
+        let [behind_x, behind_y, behind_z] = (-sight.from_host_eye_m).to_array();
         let ellipsoid = &reference.ellipsoid;
         let ratio = ellipsoid.a_m / ellipsoid.b_m;
         let eye_gradient = reference.scaled(reference.eye_ecef_m) * (2.0 / ellipsoid.a_m);
@@ -74,7 +81,7 @@ impl SightUniform {
             ray: padded(relative_from_clip.z_axis, behind_x),
             right: padded(relative_from_clip.x_axis * (2.0 / size.x), behind_y),
             down: padded(relative_from_clip.y_axis * (-2.0 / size.y), behind_z),
-            depth: [constant - whole, slope, whole, sky].map(|part| part as f32),
+            depth: depth.map(|part| part as f32),
             ellipsoid: [ellipsoid.a_m, ratio * ratio, reference.tau, ellipsoid.b_m]
                 .map(|part| part as f32),
             eye_gradient: padded(eye_gradient, reference.outside_m),

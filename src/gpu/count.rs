@@ -1,13 +1,17 @@
 //! Recording the count passes.
 
+use wgpu::util::BufferInitDescriptor;
+
 use crate::{
     frame::select::LayerDraws,
     frame::volumes::{Volume, Walls},
+    gpu::filled_buffer::FilledBuffer as _,
     gpu::fixed_function::ONE_COUNTED,
     gpu::gpu_mesh::GpuMesh,
-    gpu::pipelines::{Input, Key, Pipelines, Projection},
+    gpu::pipelines::{Input, Key, Pipelines},
     gpu::planes::Planes,
-    gpu::targets::{LayerTarget, Targets},
+    gpu::projection::Projection,
+    gpu::targets::{Copied, LayerTarget, Targets},
     options::CountTechnique,
     renderer::MeshId,
     view::{LayerView, MeshView, Prepared},
@@ -67,81 +71,25 @@ pub(crate) fn keys(
             }
         }
     }
-    if technique == CountTechnique::Stencil {
-        keys.push(Key::CopyDepth);
-    }
     keys
-}
-
-/// What the count passes of one mesh cost.
-#[derive(Default)]
-pub(crate) struct Cost {
-    pub draws: u32,
-    pub vertices: u64,
-}
-
-impl Cost {
-    fn add(&mut self, vertices: usize, times: u64) {
-        self.draws += times as u32;
-        self.vertices += vertices as u64 * times;
-    }
-}
-
-/// Counts what `Recorder` records.
-pub(crate) fn cost(view: &MeshView) -> Cost {
-    let mut cost = Cost::default();
-    if view.volumes.is_empty() {
-        for draws in &view.selection.layers {
-            for run in &draws.caps {
-                // One draw of two instances.
-                cost.draws += 1;
-                cost.vertices += 6 * run.triangles.len() as u64;
-            }
-            draws
-                .walls
-                .iter()
-                .for_each(|slots| cost.add(2 * slots.len(), 1));
-            draws
-                .patches
-                .iter()
-                .for_each(|run| cost.add(run.indices.len(), 1));
-        }
-    }
-    // Count, cover and reject draw the same.
-    for volume in view.volumes.iter().flatten() {
-        for triangles in &volume.caps {
-            cost.add(3 * triangles.len(), 6);
-        }
-        for walls in [&volume.left_of, &volume.right_of] {
-            walls
-                .slots
-                .iter()
-                .for_each(|slots| cost.add(2 * slots.len(), 3));
-            walls
-                .patches
-                .iter()
-                .for_each(|indices| cost.add(indices.len(), 3));
-        }
-    }
-    cost
 }
 
 impl Recorder<'_> {
     pub(crate) fn record(&self, encoder: &mut wgpu::CommandEncoder, depth: &wgpu::TextureView) {
-        match self.prepared.technique {
-            CountTechnique::Winding => {
-                for (index, target) in self.targets.layers.iter().enumerate() {
-                    self.record_winding(encoder, depth, index, target);
+        let copy = self.targets.copy.as_ref();
+        if let Some(copy) = copy {
+            self.record_depth_copy(encoder, depth, copy);
+        }
+        for (index, target) in self.targets.layers.iter().enumerate() {
+            match (self.prepared.technique, copy) {
+                (CountTechnique::Winding, copy) => {
+                    self.record_winding(encoder, copy.unwrap_or(depth), index, target);
                 }
-            }
-            CountTechnique::Stencil => {
-                let Some(stencil) = &self.targets.stencil else {
-                    return;
-                };
-                self.record_depth_copy(encoder, depth, stencil);
-                for (index, target) in self.targets.layers.iter().enumerate() {
+                (CountTechnique::Stencil, Some(stencil)) => {
                     self.record_stencil(encoder, stencil, index, target);
                 }
+                // The stencil always works on a copy.
+                (CountTechnique::Stencil, None) => {}
             }
         }
     }
@@ -159,7 +107,9 @@ impl Recorder<'_> {
             stencil_ops: None,
         };
         let mut pass = begin(encoder, "globefill count", Some(target), read_only);
-        self.begin_statistics(&mut pass, index as u32);
+        // The first query belongs to the copy of the depth, if there is one.
+        let copies = u32::from(self.targets.copy.is_some());
+        self.begin_statistics(&mut pass, index as u32 + copies);
         let count = |input| Key::Count {
             input,
             planes: self.targets.key.planes[index],
@@ -231,30 +181,47 @@ impl Recorder<'_> {
         &self,
         encoder: &mut wgpu::CommandEncoder,
         depth: &wgpu::TextureView,
-        stencil: &wgpu::TextureView,
+        copy: &wgpu::TextureView,
     ) {
+        let with_stencil = self.targets.key.copied == Some(Copied::WithStencil);
+        let logarithm = self.prepared.logarithm.map(|logarithm| {
+            self.device.filled_buffer(&BufferInitDescriptor {
+                label: Some("globefill logarithm"),
+                contents: bytemuck::bytes_of(&logarithm),
+                usage: wgpu::BufferUsages::UNIFORM,
+            })
+        });
+        let depth = depth_only(depth);
+        let mut entries = vec![wgpu::BindGroupEntry {
+            binding: 0,
+            resource: wgpu::BindingResource::TextureView(&depth),
+        }];
+        entries.extend(logarithm.as_ref().map(|buffer| wgpu::BindGroupEntry {
+            binding: 1,
+            resource: buffer.as_entire_binding(),
+        }));
         let group = self.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("globefill depth"),
-            layout: &self.pipelines.depth_layout,
-            entries: &[wgpu::BindGroupEntry {
-                binding: 0,
-                resource: wgpu::BindingResource::TextureView(&depth_only(depth)),
-            }],
+            layout: self.pipelines.copied_layout(logarithm.is_some()),
+            entries: &entries,
         });
         let cleared = wgpu::RenderPassDepthStencilAttachment {
-            view: stencil,
+            view: copy,
             depth_ops: Some(wgpu::Operations {
                 load: wgpu::LoadOp::Clear(0.0),
                 store: wgpu::StoreOp::Store,
             }),
-            stencil_ops: Some(wgpu::Operations {
+            stencil_ops: with_stencil.then_some(wgpu::Operations {
                 load: wgpu::LoadOp::Clear(0),
                 store: wgpu::StoreOp::Store,
             }),
         };
         let mut pass = begin(encoder, "globefill copy depth", None, cleared);
         self.begin_statistics(&mut pass, 0);
-        pass.set_pipeline(self.pipelines.get(Key::CopyDepth));
+        pass.set_pipeline(self.pipelines.get(Key::CopyDepth {
+            logarithmic: logarithm.is_some(),
+            stencil: with_stencil,
+        }));
         pass.set_bind_group(0, &group, &[]);
         pass.draw(0..3, 0..1);
         self.end_statistics(&mut pass);

@@ -5,7 +5,8 @@ use std::collections::HashMap;
 use crate::{
     frame::edge_draws::EdgeInput,
     frame::edge_segments::EdgeSegment,
-    gpu::pipelines::{Pipelines, layout, parallel_constants},
+    frame::lens::LensKind,
+    gpu::pipelines::{Pipelines, layout},
     options::RendererOptions,
     shaders,
 };
@@ -21,8 +22,7 @@ pub(crate) struct EdgeKey {
     pub input: EdgeInput,
     /// Whether the projection mirrors the picture.
     pub mirrored: bool,
-    /// Whether lines of sight are parallel.
-    pub parallel: bool,
+    pub lens: LensKind,
 }
 
 /// Layouts, the shader module and the pipelines made so far.
@@ -90,7 +90,7 @@ impl EdgePipelines {
     fn make(&self, device: &wgpu::Device, key: EdgeKey) -> wgpu::RenderPipeline {
         let [vertex_entry, fragment_entry] = key.input.entries();
         let compilation_options = wgpu::PipelineCompilationOptions {
-            constants: &parallel_constants(key.parallel),
+            constants: &key.lens.constants(),
             ..Default::default()
         };
         let attributes = wgpu::vertex_attr_array![0 => Sint32x4, 1 => Sint32x4, 2 => Uint32x4];

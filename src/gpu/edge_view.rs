@@ -7,6 +7,7 @@ use glam::UVec2;
 use crate::{
     frame::edge_draws::{EdgeDraws, EdgeInput, LayerEdges},
     frame::edge_uniform::EdgeUniform,
+    frame::lens::LensKind,
     frame::reference::Reference,
     frame::select::Selection,
     frame::sight::Sight,
@@ -28,8 +29,7 @@ pub(crate) struct EdgeView {
     layers: Vec<Option<EdgeLayer>>,
     meshes: BTreeMap<MeshId, EdgeMesh>,
     mirrored: bool,
-    /// Whether lines of sight are parallel.
-    parallel: bool,
+    lens: LensKind,
 }
 
 struct EdgeLayer {
@@ -90,7 +90,9 @@ impl EdgeView {
         subjects: &[EdgeSubject<'_>],
     ) -> (u64, bool) {
         self.mirrored = subjects.iter().any(|subject| subject.sight.mirrored);
-        self.parallel = subjects.iter().any(|subject| subject.sight.parallel);
+        self.lens = subjects
+            .first()
+            .map_or(LensKind::default(), |subject| subject.sight.kind);
         for input in EdgeInput::ALL {
             pipelines.ensure(device, self.key(input));
         }
@@ -127,7 +129,7 @@ impl EdgeView {
         EdgeKey {
             input,
             mirrored: self.mirrored,
-            parallel: self.parallel,
+            lens: self.lens,
         }
     }
 

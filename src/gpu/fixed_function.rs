@@ -3,6 +3,14 @@
 /// Depth and stencil of the stencil technique.
 pub(crate) const STENCIL_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32FloatStencil8;
 
+/// A copy of depths without a stencil.
+pub(crate) const COPY_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+
+/// The format of a copy of the host's depths.
+pub(crate) fn copy_format(stencil: bool) -> wgpu::TextureFormat {
+    if stencil { STENCIL_FORMAT } else { COPY_FORMAT }
+}
+
 /// The stencil reference while volumes are painted: the count inside one volume. Counts are compared
 /// as reference `compare` count; −1 wraps to 255.
 pub(crate) const ONE_COUNTED: u32 = 1;

@@ -7,6 +7,7 @@ use crate::{
     frame::code::{Mantissa, PlaneSums},
     frame::edge_draws::LayerEdges,
     frame::layers::{Layer, Layering, Styled},
+    frame::lens::LensKind,
     frame::placed::PatternPlace,
     gpu::filled_buffer::FilledBuffer as _,
     gpu::planes::Planes,
@@ -86,13 +87,13 @@ impl LayerTables {
         &self,
         device: &wgpu::Device,
         table: &StyleTable,
-        parallel: bool,
+        lens: LensKind,
     ) -> StyleKey {
         let most_bytes = device.limits().max_uniform_buffer_binding_size;
         let fits = UNIFORM_STYLES_BYTES.max(UNIFORM_PLACES_BYTES) <= most_bytes;
         StyleKey {
             needs: table.needs,
-            parallel,
+            lens,
             few: table.few && self.places.len() <= MOST_UNIFORM_PLACES && fits,
         }
     }

@@ -4,16 +4,15 @@ use std::collections::HashMap;
 
 use crate::{
     frame::code::MAX_PLANES,
-    frame::sight::Sight,
-    gpu::fixed_function::{ADD, STENCIL_FORMAT, counting_stencil, depth_stencil, painting},
+    gpu::fixed_function::{
+        ADD, COPY_FORMAT, STENCIL_FORMAT, copy_format, counting_stencil, depth_stencil, painting,
+    },
     gpu::planes::Planes,
+    gpu::projection::{FAR_PLANE_FEATURES, Projection},
+    gpu::recipe::Recipe,
     options::{DepthConvention, RendererOptions},
     shaders,
 };
-
-/// What it takes to draw into depth with a far plane, which must not clip the volumes.
-pub(crate) const FAR_PLANE_FEATURES: wgpu::Features =
-    wgpu::Features::DEPTH_CLIP_CONTROL.union(wgpu::Features::CLIP_DISTANCES);
 
 /// What is drawn: each input kind has its own vertex entry point and topology.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -24,47 +23,6 @@ pub(crate) enum Input {
     Walls,
     /// Refined walls, indexed.
     Patches,
-}
-
-/// How volumes are projected and clipped.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub(crate) enum Projection {
-    /// A perspective without a far plane: clipped at the near plane as usual.
-    #[default]
-    Infinite,
-    /// A perspective with a far plane, which must not clip.
-    FarPlane,
-    /// Parallel lines of sight, where neither plane need clip.
-    Parallel,
-}
-
-impl Projection {
-    pub(crate) fn of(sight: &Sight) -> Self {
-        match (sight.parallel, sight.far_plane) {
-            (true, _) => Self::Parallel,
-            (false, true) => Self::FarPlane,
-            (false, false) => Self::Infinite,
-        }
-    }
-
-    /// What the device must be able to do.
-    pub(crate) fn features(self) -> wgpu::Features {
-        match self {
-            Self::Infinite => wgpu::Features::empty(),
-            Self::FarPlane => FAR_PLANE_FEATURES,
-            Self::Parallel => wgpu::Features::DEPTH_CLIP_CONTROL,
-        }
-    }
-
-    /// The overrides of host.wgsl.
-    pub(crate) fn constants(self) -> [(&'static str, f64); 1] {
-        parallel_constants(self == Self::Parallel)
-    }
-}
-
-/// The overrides of host.wgsl.
-pub(crate) fn parallel_constants(parallel: bool) -> [(&'static str, f64); 1] {
-    [("PARALLEL", f64::from(u8::from(parallel)))]
 }
 
 /// Names a pipeline.
@@ -97,8 +55,8 @@ pub(crate) enum Key {
         planes: Planes,
         projection: Projection,
     },
-    /// Copies the host's depth beside the stencil.
-    CopyDepth,
+    /// Copies the host's depth, beside the stencil where it counts.
+    CopyDepth { logarithmic: bool, stencil: bool },
     /// Colours the host's target.
     Resolve,
 }
@@ -109,7 +67,9 @@ pub(crate) struct Pipelines {
     pub frame_layout: wgpu::BindGroupLayout,
     pub mesh_layout: wgpu::BindGroupLayout,
     pub resolve_layout: wgpu::BindGroupLayout,
-    pub depth_layout: wgpu::BindGroupLayout,
+    depth_layout: wgpu::BindGroupLayout,
+    /// The same with the host's logarithm.
+    log_depth_layout: wgpu::BindGroupLayout,
     count_shader: wgpu::ShaderModule,
     /// For depth with a far plane, where the device can draw that.
     unclipped_count_shader: Option<wgpu::ShaderModule>,
@@ -156,6 +116,12 @@ impl Pipelines {
                 fragment,
                 &[texture(wgpu::TextureSampleType::Depth)],
             ),
+            log_depth_layout: layout(
+                device,
+                "globefill logarithmic depth",
+                fragment,
+                &[texture(wgpu::TextureSampleType::Depth), uniform],
+            ),
             count_shader: shader(device, "globefill count", shaders::count(false)),
             unclipped_count_shader: device
                 .features()
@@ -188,12 +154,16 @@ impl Pipelines {
                 let mut recipe = self.volume_recipe(input, vertex_entry(input), projection);
                 recipe.fragment = Some(self.planes_entry("fs_count"));
                 recipe.targets = self.targets(planes, Some(ADD), wgpu::ColorWrites::ALL);
+                let format = match projection {
+                    Projection::Logarithmic => COPY_FORMAT,
+                    _ => self.options.depth_format,
+                };
                 recipe.depth_stencil = Some(depth_stencil(
-                    self.options.depth_format,
-                    self.behind(),
+                    format,
+                    self.behind(projection),
                     wgpu::StencilState::default(),
                 ));
-                self.build(device, &recipe)
+                recipe.build(device, self.options.sample_count)
             }
             Key::Stencil {
                 input,
@@ -206,10 +176,10 @@ impl Pipelines {
                 recipe.targets = self.targets(planes, None, wgpu::ColorWrites::empty());
                 recipe.depth_stencil = Some(depth_stencil(
                     STENCIL_FORMAT,
-                    self.behind(),
+                    self.behind(projection),
                     counting_stencil(flipped),
                 ));
-                self.build(device, &recipe)
+                recipe.build(device, self.options.sample_count)
             }
             Key::Cover {
                 input,
@@ -219,7 +189,7 @@ impl Pipelines {
                 let mut recipe = self.cover_recipe(input, planes, projection);
                 recipe.fragment = Some(self.planes_entry("fs_cover"));
                 recipe.depth_stencil = Some(painting(wgpu::CompareFunction::Equal));
-                self.build(device, &recipe)
+                recipe.build(device, self.options.sample_count)
             }
             Key::Reject {
                 input,
@@ -229,21 +199,24 @@ impl Pipelines {
                 let mut recipe = self.cover_recipe(input, planes, projection);
                 recipe.fragment = Some(self.planes_entry("fs_reject"));
                 recipe.depth_stencil = Some(painting(wgpu::CompareFunction::Less));
-                self.build(device, &recipe)
+                recipe.build(device, self.options.sample_count)
             }
-            Key::CopyDepth => {
-                let source = shaders::copy_depth(self.options.sample_count);
+            Key::CopyDepth {
+                logarithmic,
+                stencil,
+            } => {
+                let source = shaders::copy_depth(self.options.sample_count, logarithmic);
                 let module = shader(device, "globefill copy depth", source);
-                let mut recipe = self.screen_recipe(&module, &self.depth_layout);
+                let mut recipe = self.screen_recipe(&module, self.copied_layout(logarithmic));
                 recipe.fragment = Some("fs_copy_depth".to_owned());
                 let mut state = depth_stencil(
-                    STENCIL_FORMAT,
+                    copy_format(stencil),
                     wgpu::CompareFunction::Always,
                     wgpu::StencilState::default(),
                 );
                 state.depth_write_enabled = Some(true);
                 recipe.depth_stencil = Some(state);
-                self.build(device, &recipe)
+                recipe.build(device, self.options.sample_count)
             }
             Key::Resolve => {
                 let source = shaders::resolve(self.options.sample_count);
@@ -260,14 +233,24 @@ impl Pipelines {
                     blend: Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
                     write_mask: wgpu::ColorWrites::ALL,
                 })];
-                self.build(device, &recipe)
+                recipe.build(device, self.options.sample_count)
             }
         }
     }
 
+    /// What the copy of the host's depth binds.
+    pub(crate) fn copied_layout(&self, logarithmic: bool) -> &wgpu::BindGroupLayout {
+        if logarithmic {
+            &self.log_depth_layout
+        } else {
+            &self.depth_layout
+        }
+    }
+
     /// Passes what lies behind the scene's surface.
-    fn behind(&self) -> wgpu::CompareFunction {
+    fn behind(&self, projection: Projection) -> wgpu::CompareFunction {
         match self.options.depth {
+            _ if projection == Projection::Logarithmic => wgpu::CompareFunction::Less,
             DepthConvention::Reversed => wgpu::CompareFunction::Less,
             DepthConvention::Standard => wgpu::CompareFunction::Greater,
         }
@@ -322,7 +305,7 @@ impl Pipelines {
                     Input::Walls => wgpu::PrimitiveTopology::TriangleStrip,
                     Input::Caps | Input::Patches => wgpu::PrimitiveTopology::TriangleList,
                 },
-                unclipped_depth: projection != Projection::Infinite,
+                unclipped_depth: projection.unclipped(),
                 ..Default::default()
             },
             depth_stencil: None,
@@ -351,55 +334,6 @@ impl Pipelines {
             depth_stencil: None,
         }
     }
-
-    fn build(&self, device: &wgpu::Device, recipe: &Recipe<'_>) -> wgpu::RenderPipeline {
-        let layouts: Vec<_> = recipe.layouts.iter().map(|&layout| Some(layout)).collect();
-        let compilation_options = wgpu::PipelineCompilationOptions {
-            constants: &recipe.constants,
-            ..Default::default()
-        };
-        let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some(recipe.vertex),
-            bind_group_layouts: &layouts,
-            immediate_size: 0,
-        });
-        device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-            label: Some(recipe.fragment.as_deref().unwrap_or(recipe.vertex)),
-            layout: Some(&layout),
-            vertex: wgpu::VertexState {
-                module: recipe.module,
-                entry_point: Some(recipe.vertex),
-                compilation_options: compilation_options.clone(),
-                buffers: &[],
-            },
-            primitive: recipe.primitive,
-            depth_stencil: recipe.depth_stencil.clone(),
-            multisample: wgpu::MultisampleState {
-                count: self.options.sample_count,
-                ..Default::default()
-            },
-            fragment: recipe.fragment.as_deref().map(|entry| wgpu::FragmentState {
-                module: recipe.module,
-                entry_point: Some(entry),
-                compilation_options: compilation_options.clone(),
-                targets: &recipe.targets,
-            }),
-            multiview_mask: None,
-            cache: None,
-        })
-    }
-}
-
-/// What differs between the pipelines.
-struct Recipe<'a> {
-    module: &'a wgpu::ShaderModule,
-    constants: Vec<(&'static str, f64)>,
-    layouts: Vec<&'a wgpu::BindGroupLayout>,
-    vertex: &'static str,
-    fragment: Option<String>,
-    targets: Vec<Option<wgpu::ColorTargetState>>,
-    primitive: wgpu::PrimitiveState,
-    depth_stencil: Option<wgpu::DepthStencilState>,
 }
 
 fn vertex_entry(input: Input) -> &'static str {

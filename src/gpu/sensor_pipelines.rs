@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 
 use crate::{
-    gpu::pipelines::layout, gpu::surface_binding::surface_layout, options::RendererOptions,
-    sensor_set::Needs, shaders,
+    frame::lens::LensKind, gpu::pipelines::layout, gpu::surface_binding::surface_layout,
+    options::RendererOptions, sensor_set::Needs, shaders,
 };
 
 /// What a fragment shows of the sensors that cover it.
@@ -19,8 +19,7 @@ pub(crate) enum Shown {
 pub(crate) struct SensorKey {
     pub shown: Shown,
     pub needs: Needs,
-    /// Whether lines of sight are parallel.
-    pub parallel: bool,
+    pub lens: LensKind,
 }
 
 /// The pipelines of a frame.
@@ -178,16 +177,25 @@ fn compute_pipelines(
 }
 
 /// The overrides of surface.wgsl and host.wgsl.
-fn constants(key: SensorKey) -> [(&'static str, f64); 5] {
+fn constants(key: SensorKey) -> [(&'static str, f64); 6] {
     let needs = key.needs;
-    [
-        ("PARALLEL", key.parallel),
+    let needed = [
         ("APEXES", needs.apexes),
         ("INNER_CONES", needs.inner_cones),
         ("CORNERS", needs.corners),
         ("ELEVATIONS", needs.elevations),
     ]
-    .map(|(name, needed)| (name, f64::from(u8::from(needed))))
+    .map(|(name, needed)| (name, f64::from(u8::from(needed))));
+    let [parallel, logarithmic] = key.lens.constants();
+    let [apexes, inner_cones, corners, elevations] = needed;
+    [
+        parallel,
+        logarithmic,
+        apexes,
+        inner_cones,
+        corners,
+        elevations,
+    ]
 }
 
 fn options<'a>(constants: &'a [(&'a str, f64)]) -> wgpu::PipelineCompilationOptions<'a> {

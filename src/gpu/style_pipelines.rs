@@ -5,13 +5,9 @@ use std::collections::HashMap;
 use glam::UVec2;
 
 use crate::{
-    gpu::edge_pipelines::EdgePipelines,
-    gpu::edge_view::edge_target,
-    gpu::pipelines::{layout, parallel_constants},
-    gpu::style_record::Needs,
-    gpu::surface_binding::surface_layout,
-    options::RendererOptions,
-    shaders,
+    frame::lens::LensKind, gpu::edge_pipelines::EdgePipelines, gpu::edge_view::edge_target,
+    gpu::pipelines::layout, gpu::style_record::Needs, gpu::surface_binding::surface_layout,
+    options::RendererOptions, shaders,
 };
 
 /// What a pipeline is made for.
@@ -20,8 +16,7 @@ pub(crate) struct StyleKey {
     pub needs: Needs,
     /// Whether styles and places are few enough for uniforms.
     pub few: bool,
-    /// Whether lines of sight are parallel.
-    pub parallel: bool,
+    pub lens: LensKind,
 }
 
 /// Layouts, the shader modules and the pipelines made so far.
@@ -141,8 +136,8 @@ impl StylePipelines {
         } else {
             "fs_styled"
         };
-        let [parallel] = parallel_constants(key.parallel);
-        let constants = [("NEEDS", f64::from(key.needs)), parallel];
+        let [parallel, logarithmic] = key.lens.constants();
+        let constants = [("NEEDS", f64::from(key.needs)), parallel, logarithmic];
         let options = wgpu::PipelineCompilationOptions {
             constants: &constants,
             ..Default::default()

@@ -1,6 +1,7 @@
 //! What a view keeps of styles: where its eye finds the patterns, and what is bound.
 
 use crate::{
+    frame::lens::LensKind,
     frame::placed::{PatternPlace, Placed},
     frame::reference::Reference,
     frame::sight_uniform::SightUniform,
@@ -27,8 +28,7 @@ pub(crate) struct StyleView {
     layers: Vec<Option<StyledLayer>>,
     /// Which layer tables are bound.
     revision: (u64, CountTechnique),
-    /// Whether lines of sight are parallel.
-    parallel: bool,
+    lens: LensKind,
 }
 
 struct StyledLayer {
@@ -47,8 +47,7 @@ pub(crate) struct StyleFrame<'a> {
     pub revision: (u64, CountTechnique),
     pub reference: Reference,
     pub uniform: SightUniform,
-    /// Whether lines of sight are parallel.
-    pub parallel: bool,
+    pub lens: LensKind,
     pub edges: EdgeFrame<'a>,
     /// The meshes, in the order they are drawn in.
     pub subjects: &'a [EdgeSubject<'a>],
@@ -65,7 +64,7 @@ impl StyleView {
             edge_cost: EdgeCost::default(),
             layers: Vec::new(),
             revision: (0, CountTechnique::default()),
-            parallel: false,
+            lens: LensKind::default(),
         }
     }
 
@@ -87,8 +86,8 @@ impl StyleView {
         let contents = bytemuck::cast_slice(&placed);
         let (uploaded, moved) = self.places.write(device, queue, contents);
         let (edge_bytes, replaced) = self.prepare_edges(device, queue, pipelines, with);
-        let turned = self.parallel != with.parallel;
-        self.parallel = with.parallel;
+        let turned = self.lens != with.lens;
+        self.lens = with.lens;
         if moved || replaced || turned || self.revision != with.revision || self.layers.is_empty() {
             self.revision = with.revision;
             self.bind(device, pipelines, with.tables);
@@ -121,7 +120,7 @@ impl StyleView {
         let styled = tables.styles.iter().enumerate().map(|(layer, table)| {
             let table = table.as_ref()?;
             let edges = self.edges.as_ref().and_then(|edges| edges.target(layer));
-            let key = tables.style_key(device, table, self.parallel);
+            let key = tables.style_key(device, table, self.lens);
             // Uniforms have a largest size.
             let bound = |buffer, few_bytes| {
                 wgpu::BindingResource::Buffer(wgpu::BufferBinding {

@@ -3,7 +3,7 @@
 use glam::UVec2;
 
 use crate::{
-    frame::code::MAX_PLANES, gpu::fixed_function::STENCIL_FORMAT, gpu::layer_tables::LayerTable,
+    frame::code::MAX_PLANES, gpu::fixed_function::copy_format, gpu::layer_tables::LayerTable,
     gpu::pipelines::Pipelines, gpu::planes::Planes, pick::Pick,
 };
 
@@ -13,10 +13,19 @@ pub(crate) struct TargetsKey {
     pub size_px: UVec2,
     /// Planes of each layer.
     pub planes: Vec<Planes>,
-    /// Whether layers are counted by stencil.
-    pub stencil: bool,
+    /// Whether the host's depth is copied, and that beside a stencil.
+    pub copied: Option<Copied>,
     /// Which layer tables the bind groups refer to.
     pub layer_revision: u64,
+}
+
+/// A copy of the host's depth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Copied {
+    /// By itself.
+    Alone,
+    /// With a stencil that counts layers.
+    WithStencil,
 }
 
 /// Textures of one view.
@@ -25,7 +34,8 @@ pub(crate) struct Targets {
     pub layers: Vec<LayerTarget>,
     /// What the ids in the layers mean.
     pub pick: Pick,
-    pub stencil: Option<wgpu::TextureView>,
+    /// The copy of the host's depth.
+    pub copy: Option<wgpu::TextureView>,
 }
 
 /// Winding planes of one layer.
@@ -82,14 +92,15 @@ impl Targets {
                 }
             })
             .collect();
-        let stencil = key
-            .stencil
-            .then(|| texture("globefill stencil", STENCIL_FORMAT, attachment));
+        let copy = key.copied.map(|copied| {
+            let format = copy_format(copied == Copied::WithStencil);
+            texture("globefill depth", format, attachment)
+        });
         Self {
             key,
             layers,
             pick,
-            stencil,
+            copy,
         }
     }
 }

@@ -6,16 +6,19 @@ use crate::{
     frame::code::PlaneSums,
     frame::edge_draws::EdgeWants,
     frame::layers::Styled,
+    frame::lens::log_range,
     frame::placed::PatternPlace,
     frame::select::{LayerDraws, Selection},
     frame::sight::Sight,
     frame::volumes::volumes,
     frame_stats::FrameStats,
     gpu::count,
+    gpu::count_cost::cost,
     gpu::layer_tables::{LayerTables, require},
-    gpu::pipelines::{Input, Key, Projection},
+    gpu::pipelines::{Input, Key},
+    gpu::projection::Projection,
     gpu::style_table::StyleSource,
-    gpu::targets::{Targets, TargetsKey},
+    gpu::targets::{Copied, Targets, TargetsKey},
     options::{CountTechnique, Frame},
     pick::Pick,
     view::{MeshView, Prepared, Upload, View},
@@ -49,11 +52,12 @@ impl Renderer {
             technique: layers.layering.technique,
             mirrored: sight.is_some_and(|sight| sight.mirrored),
             projection: sight.map(Projection::of).unwrap_or_default(),
+            logarithm: sight.and_then(logarithm),
             stats: FrameStats::default(),
         };
         require(self.device.features(), prepared.projection.features())?;
         self.check_styles(&selections, choice)?;
-        self.ensure_targets(view, frame, choice)?;
+        self.ensure_targets(view, &prepared, choice)?;
         self.ensure_pipelines(&prepared, &selections, choice)?;
         let place_bytes = self.prepare_styles(queue, view, &prepared, &selections, choice);
         let mesh_bytes = self.upload(queue, view, selections);
@@ -167,14 +171,14 @@ impl Renderer {
     fn ensure_targets(
         &self,
         view: &mut View,
-        frame: &Frame,
+        prepared: &Prepared,
         choice: Choice,
     ) -> Result<(), RendererError> {
         let layers = self.layers(choice)?;
         let key = TargetsKey {
-            size_px: frame.size_px,
+            size_px: prepared.frame.size_px,
             planes: layers.planes(),
-            stencil: layers.layering.technique == CountTechnique::Stencil,
+            copied: prepared.copied(),
             layer_revision: self.revision,
         };
         if view
@@ -213,7 +217,11 @@ impl Renderer {
             .filter_map(|(input, used)| used.then_some(input))
             .collect();
             let keys = count::keys(prepared.technique, planes, prepared.projection, &inputs);
-            for key in keys.into_iter().chain([Key::Resolve]) {
+            let copy = prepared.copied().map(|copied| Key::CopyDepth {
+                logarithmic: prepared.logarithm.is_some(),
+                stencil: copied == Copied::WithStencil,
+            });
+            for key in keys.into_iter().chain(copy).chain([Key::Resolve]) {
                 self.pipelines.ensure(&self.device, key);
             }
         }
@@ -246,6 +254,7 @@ impl Renderer {
 
     /// Volumes for the stencil, and the frame's statistics.
     fn fill_stats(&self, view: &mut View, prepared: &mut Prepared) {
+        let copied = prepared.copied();
         let stats = &mut prepared.stats;
         stats.technique = prepared.technique;
         for (id, resident) in &self.meshes {
@@ -263,7 +272,7 @@ impl Renderer {
                     .map(|draws| volumes(&resident.mesh, draws))
                     .collect(),
             };
-            let cost = count::cost(mesh_view);
+            let cost = cost(mesh_view);
             stats.drawn += mesh_view.selection.fills_drawn;
             stats.culled += mesh_view.selection.fills_culled;
             stats.refined_chords += mesh_view.selection.patch.chords.len() as u32;
@@ -274,7 +283,7 @@ impl Renderer {
             .targets
             .as_ref()
             .map_or(0, |targets| targets.layers.len() as u32);
-        // Resolve draws a triangle a layer, or one for each array of images; the stencil copies the depth.
+        // Resolve draws a triangle a layer, or one for each array of images; a copy of the depth is another.
         for layer in 0..stats.layers as usize {
             let styled = view
                 .styles
@@ -289,11 +298,28 @@ impl Renderer {
             stats.vertices += styles.edge_cost.vertices;
         }
         stats.passes = stats.layers;
-        if prepared.technique == CountTechnique::Stencil && stats.layers > 0 {
+        if copied.is_some() && stats.layers > 0 {
             stats.draws += 1;
             stats.passes += 1;
         }
     }
+}
+
+impl Prepared {
+    /// How the host's depth is copied, if it is.
+    pub(super) fn copied(&self) -> Option<Copied> {
+        match self.technique {
+            CountTechnique::Stencil => Some(Copied::WithStencil),
+            CountTechnique::Winding => self.logarithm.map(|_| Copied::Alone),
+        }
+    }
+}
+
+/// `logarithm` of copy_linear.wgsl.
+fn logarithm(sight: &Sight) -> Option<[f32; 4]> {
+    let log = sight.log_depth?;
+    let parts = [log_range(&log), 1.0 / log.per_m, log.from_m, sight.near_m];
+    Some(parts.map(|part| part as f32))
 }
 
 /// Which layers a frame is counted in.

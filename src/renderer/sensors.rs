@@ -87,7 +87,7 @@ impl Renderer {
         let key = SensorKey {
             shown,
             needs: set.needs(),
-            parallel: sight.parallel,
+            lens: sight.kind,
         };
         pipelines.ensure(&self.device, key);
         let sensors = view

@@ -199,7 +199,7 @@ impl Renderer {
             pipelines.edges = Some(edges);
         }
         for table in tables.styles.iter().flatten() {
-            pipelines.ensure(device, tables.style_key(device, table, sight.parallel));
+            pipelines.ensure(device, tables.style_key(device, table, sight.kind));
         }
         let frame = &prepared.frame;
         let reference = Reference::new(sight.ellipsoid, sight.eye_ecef_m);
@@ -219,7 +219,7 @@ impl Renderer {
             tables,
             revision: (self.revision, prepared.technique),
             uniform,
-            parallel: sight.parallel,
+            lens: sight.kind,
             reference,
             edges: EdgeFrame {
                 size_px: frame.size_px,

@@ -1,7 +1,7 @@
 //! Test cameras: a place, a direction, a lens, a depth convention.
 
 use glam::{DMat3, DMat4, DVec2, DVec3, DVec4, UVec2};
-use globefill::{Camera, DepthConvention, LonLat};
+use globefill::{Camera, DepthConvention, LogDepth, LonLat};
 
 use super::figure::Figure;
 
@@ -67,6 +67,7 @@ pub enum DepthRange {
     ReversedInfinite { near_m: f64 },
     ReversedFinite { near_m: f64, far_m: f64 },
     StandardFinite { near_m: f64, far_m: f64 },
+    Logarithmic(LogDepth),
 }
 
 impl DepthRange {
@@ -75,7 +76,8 @@ impl DepthRange {
             Self::ReversedInfinite { .. } | Self::ReversedFinite { .. } => {
                 DepthConvention::Reversed
             }
-            Self::StandardFinite { .. } => DepthConvention::Standard,
+            // Logarithms are said frame by frame, whatever the other frames have.
+            Self::StandardFinite { .. } | Self::Logarithmic(_) => DepthConvention::Standard,
         }
     }
 
@@ -83,7 +85,7 @@ impl DepthRange {
     pub fn cleared(self) -> f32 {
         match self {
             Self::ReversedInfinite { .. } | Self::ReversedFinite { .. } => 0.0,
-            Self::StandardFinite { .. } => 1.0,
+            Self::StandardFinite { .. } | Self::Logarithmic(_) => 1.0,
         }
     }
 
@@ -93,7 +95,8 @@ impl DepthRange {
         let (depths, planes_m) = match self {
             Self::ReversedInfinite { near_m } => ([1.0, 0.0], [near_m, f64::INFINITY]),
             Self::ReversedFinite { near_m, far_m } => ([1.0, 0.0], [near_m, far_m]),
-            Self::StandardFinite { near_m, far_m } => ([0.0, 1.0], [near_m, far_m]),
+            Self::StandardFinite { near_m, far_m }
+            | Self::Logarithmic(LogDepth { near_m, far_m, .. }) => ([0.0, 1.0], [near_m, far_m]),
         };
         let at = planes_m.map(|plane_m| if parallel { plane_m } else { 1.0 / plane_m });
         let slope = (depths[1] - depths[0]) / (at[1] - at[0]);
@@ -140,6 +143,8 @@ pub struct Lens {
     pub parallel: bool,
     /// Depth = `depth.x + depth.y / distance`, or · distance where lines of sight are parallel.
     depth: DVec2,
+    /// Instead: depths in proportion to a logarithm.
+    pub log_depth: Option<LogDepth>,
     pub steps: DepthSteps,
     pub size_px: UVec2,
 }
@@ -175,6 +180,10 @@ impl Lens {
             aside: f32_of(pose.aside),
             parallel,
             depth: f32_of(range.coefficients(parallel)),
+            log_depth: match range {
+                DepthRange::Logarithmic(log_depth) if !parallel => Some(log_depth),
+                _ => None,
+            },
             steps: DepthSteps::Float,
             size_px,
         }
@@ -247,6 +256,10 @@ impl Lens {
 
     /// Depth stored for a distance along the view axis.
     pub fn stored_depth(&self, distance_m: f64) -> f32 {
+        if let Some(log) = &self.log_depth {
+            let at = |distance_m: f64| (log.per_m * (distance_m - log.from_m)).ln_1p();
+            return self.steps.stored(at(distance_m) / at(log.far_m));
+        }
         let at = if self.parallel {
             distance_m
         } else {
@@ -261,6 +274,10 @@ impl Lens {
     }
 
     fn distance_of(&self, depth: f64) -> f64 {
+        if let Some(log) = &self.log_depth {
+            let most = (log.per_m * (log.far_m - log.from_m)).ln_1p();
+            return (depth * most).exp_m1() / log.per_m + log.from_m;
+        }
         let at = (depth - self.depth.x) / self.depth.y;
         if self.parallel { at } else { 1.0 / at }
     }

@@ -101,6 +101,7 @@ pub fn paint(
         terrain: HeightRange { min_m, max_m },
         pixel_error,
         host_pixel_error: 0.0,
+        log_depth: surface.lens.log_depth,
     };
     let stats = renderer
         .prepare(&gpu.queue, view, &frame)

@@ -1,7 +1,7 @@
 //! What the host draws: the bare ellipsoid or analytic terrain, ray-cast in f64.
 
 use glam::{DVec2, DVec3, UVec2};
-use globefill::wgpu;
+use globefill::{LogDepth, wgpu};
 use rayon::prelude::*;
 
 use super::{
@@ -272,13 +272,18 @@ pub enum DepthKind {
     Standard24,
     /// The reversed finite one in 24 bits.
     Reversed24,
+    /// A logarithm that starts at the eye, up to 10^9 m, in floats and in 24 bits.
+    Logarithmic,
+    Logarithmic24,
+    /// One that starts at the near plane.
+    FromNear,
 }
 
 impl DepthKind {
     fn steps(self) -> DepthSteps {
         match self {
-            Self::Reversed | Self::Standard | Self::ReversedFinite => DepthSteps::Float,
-            Self::Standard24 | Self::Reversed24 => DepthSteps::Bits24,
+            Self::Standard24 | Self::Reversed24 | Self::Logarithmic24 => DepthSteps::Bits24,
+            _ => DepthSteps::Float,
         }
     }
 
@@ -292,13 +297,18 @@ impl DepthKind {
         } else {
             (0.5 * nearest_m, 2.0 * farthest_m)
         };
+        let close_m = (0.1 * nearest_m).clamp(0.01, 1.0);
         match self {
-            Self::Reversed if cast.pose.parallel_m.is_none() => DepthRange::ReversedInfinite {
-                near_m: (0.1 * nearest_m).clamp(0.01, 1.0),
-            },
+            Self::Reversed if cast.pose.parallel_m.is_none() => {
+                DepthRange::ReversedInfinite { near_m: close_m }
+            }
             Self::Reversed | Self::ReversedFinite | Self::Reversed24 => {
                 DepthRange::ReversedFinite { near_m, far_m }
             }
+            Self::Logarithmic | Self::Logarithmic24 => {
+                DepthRange::Logarithmic(LogDepth::new(close_m, 1e9))
+            }
+            Self::FromNear => DepthRange::Logarithmic(LogDepth::from_near(close_m, far_m)),
             Self::Standard | Self::Standard24 => DepthRange::StandardFinite { near_m, far_m },
         }
     }

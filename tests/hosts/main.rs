@@ -7,6 +7,7 @@ mod common;
 mod adapters;
 mod gate;
 mod lenses;
+mod logarithmic;
 mod lost_device;
 mod parallel;
 mod underground;

@@ -117,6 +117,24 @@ fn nothing_is_wrong_off_the_middle_nor_in_deep_buffers() {
     gate.finish();
 }
 
+#[test]
+fn nothing_is_wrong_with_four_samples() {
+    let Some(gpu) = gpu() else { return };
+    let mut gate = Gate::new(gpu);
+    let subject = Subject::pair();
+    for (picture_m, pitch_deg) in [(100.0, -40.0), (1e6, -90.0)] {
+        let pose = subject
+            .pose(PLATEAU, 0.0)
+            .turned(65.0, pitch_deg)
+            .parallel(picture_m)
+            .back_by(1e6);
+        let cast = Cast::new(&figure(), &pose, SIZE, 4, PLATEAU);
+        let surface = Surface::new(&cast, DepthKind::Reversed);
+        gate.judge(&format!("{picture_m} m"), &subject, &surface);
+    }
+    gate.finish();
+}
+
 /// A host that changes its lens from frame to frame, in one view.
 #[test]
 fn lenses_may_change_from_frame_to_frame() {

@@ -13,6 +13,7 @@ mod edges;
 mod hosts;
 mod images;
 mod ink;
+mod logarithmic;
 mod many;
 mod parallel;
 mod ramps;

@@ -75,6 +75,7 @@ fn looking_down(mesh: &FillMesh, height_m: f64, terrain: HeightRange) -> Sight {
         terrain,
         pixel_error: 0.0,
         host_pixel_error: 1.0,
+        log_depth: None,
     };
     Sight::new(mesh.ellipsoid, 1_000.0, &frame, &RendererOptions::default()).expect("valid")
 }

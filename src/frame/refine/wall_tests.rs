@@ -56,6 +56,7 @@ fn looking_down(mesh: &FillMesh, height_m: f64, terrain: HeightRange, pixel_erro
         terrain,
         pixel_error,
         host_pixel_error: 1.0,
+        log_depth: None,
     };
     Sight::new(
         mesh.ellipsoid,

@@ -1,0 +1,4 @@
+fn copied(depth: f32) -> f32 {
+    return depth;
+}
+
