@@ -3,7 +3,7 @@
 // Around the wall of every boundary chord a prism is drawn that holds all surface within the chord's
 // reach. Its back faces alone are drawn, untested against the host's depth, so the eye may be inside;
 // each fragment measures from the surface point it sees to the chord, and the nearest chord wins by
-// depth, which holds the distance in pixels.
+// depth, which holds the distance in pixels; of distances on the ground, in pixels of their mean size.
 //
 // Ends of chords and surface are both taken from the eye's foot point: the former exactly, from fixed
 // point, the latter as place_of gives it. Their difference is then off by a few roundings of the distance
@@ -222,14 +222,14 @@ fn vs_segment(
 
 // The point of a chord that is nearest to a pixel.
 struct Nearest {
-    // How far it is, metres and pixels.
+    // How far it is, metres, and pixels by which chords are ranked.
     off: f32,
     off_px: f32,
     // Metres a pixel, across the chord and along it.
     across: f32,
     along: f32,
-    // Metres from the chord's start to where the chord's line is nearest, and by how many pixels that is
-    // beyond an end.
+    // Metres from the chord's start to where the chord's line is nearest, and by how many such pixels that
+    // is beyond an end.
     passed: f32,
     beyond_px: f32,
 }
@@ -246,6 +246,8 @@ fn pixels_of(way: vec3<f32>, span: Span) -> vec2<f32> {
     return turned / dot(normal, normal);
 }
 
+// What is nearest in metres must win. Seen obliquely, a vertex ahead may be fewer pixels away than the
+// boundary beside: chords are ranked by pixels that are as large in all directions.
 fn nearest_on_ground(in: EdgeVertex, foot: vec3<f32>, span: Span) -> Nearest {
     let from_start = foot - in.start.xyz;
     let side = dot(from_start, in.left.xyz);
@@ -261,7 +263,8 @@ fn nearest_on_ground(in: EdgeVertex, foot: vec3<f32>, span: Span) -> Nearest {
     }
     let across = length(change_of(away, span));
     let area = length(cross(span.right, span.down));
-    return Nearest(off, off / across, across, area / across, passed, beyond / across);
+    let mean = sqrt(area);
+    return Nearest(off, off / mean, across, area / across, passed, beyond / mean);
 }
 
 // Level ground is projected to the screen: the inverse of the distance along the view axis is linear there,
