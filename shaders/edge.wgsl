@@ -3,7 +3,7 @@
 // Around the wall of every boundary chord a prism is drawn that holds all surface within the chord's
 // reach. Its back faces alone are drawn, untested against the host's depth, so the eye may be inside;
 // each fragment measures from the surface point it sees to the chord, and the nearest chord wins by
-// depth, which holds the distance in pixels.
+// depth, which holds the distance in pixels; of distances on the ground, in pixels of their mean size.
 //
 // Ends of chords and surface are both taken from the eye's foot point: the former exactly, from fixed
 // point, the latter as place_of gives it. Their difference is then off by a few roundings of the distance
@@ -233,15 +233,16 @@ fn vs_segment(
 
 // The point of a chord that is nearest to a pixel.
 struct Nearest {
-    // How far it is, metres.
+    // How far it is, metres, and pixels by which chords are ranked.
     off: f32,
-    // Metres a pixel, from here to it and along the chord.
+    off_px: f32,
+    // Metres a pixel, across the chord and along it.
     across: f32,
     along: f32,
-    // Metres from the chord's start to where the chord's line is nearest, and by how much that is beyond
-    // an end.
+    // Metres from the chord's start to where the chord's line is nearest, and by how many such pixels that
+    // is beyond an end.
     passed: f32,
-    beyond: f32,
+    beyond_px: f32,
 }
 
 // A change of a place on level ground, from pixel to pixel.
@@ -256,6 +257,8 @@ fn pixels_of(way: vec3<f32>, span: Span) -> vec2<f32> {
     return turned / dot(normal, normal);
 }
 
+// What is nearest in metres must win. Seen obliquely, a vertex ahead may be fewer pixels away than the
+// boundary beside: chords are ranked by pixels that are as large in all directions.
 fn nearest_on_ground(in: EdgeVertex, foot: vec3<f32>, span: Span) -> Nearest {
     let from_start = foot - in.start.xyz;
     let side = dot(from_start, in.left.xyz);
@@ -271,11 +274,16 @@ fn nearest_on_ground(in: EdgeVertex, foot: vec3<f32>, span: Span) -> Nearest {
     }
     let across = length(change_of(away, span));
     let area = length(cross(span.right, span.down));
-    return Nearest(off, across, area / across, passed, beyond);
+    let mean = sqrt(area);
+    return Nearest(off, off / mean, across, area / across, passed, beyond / mean);
 }
 
 // Level ground is projected to the screen: the inverse of the distance along the view axis is linear there,
 // and so is a distance from a line divided by that distance.
+//
+// Beyond an end the end is nearest on the screen, but seldom on the ground, where the way to it may be many
+// times as long as that across the boundary. Metres are therefore those across the chord there too: where
+// the next chord goes on in nearly the same direction, they go on as well.
 fn nearest_on_screen(in: EdgeVertex, foot: vec3<f32>, span: Span, distance: f32) -> Nearest {
     let from_start = foot - in.start.xyz;
     let side = dot(from_start, in.left.xyz);
@@ -293,18 +301,21 @@ fn nearest_on_screen(in: EdgeVertex, foot: vec3<f32>, span: Span, distance: f32)
     let line = (span.right * line_px.x + span.down * line_px.y) * nearer + aim * dot(receding, line_px);
     let along = abs(dot(line, in.ahead.xyz)) / (nearer * nearer);
     var off = abs(side);
+    var off_px = off / across;
     var beyond_px = 0.0;
     if beyond > 0.0 {
         // The same bits for all chords that end there.
         let to_end = select(foot - in.end.xyz, from_start, passed < 0.0);
         let end_distance = max(distance - dot(edge_sight.axis.xyz, to_end), distance / 64.0);
         let nearer_end = select(distance / end_distance, 1.0, PARALLEL);
-        let off_px = length(pixels_of(to_end, span)) * nearer_end;
+        off_px = length(pixels_of(to_end, span)) * nearer_end;
         beyond_px = sqrt(max(off_px * off_px - dot(aim_px, aim_px), 0.0));
-        off = length(to_end);
-        across = off / off_px;
+        // Where the end would be seen if the ground were level between: the scale of `side`.
+        let level_px = length(vec2<f32>(length(aim_px), min(beyond / along, off_px)));
+        across *= clamp(level_px / max(off_px, 1e-6), 0.25, 4.0);
+        off = off_px * across;
     }
-    return Nearest(off, across, along, passed, beyond_px * across);
+    return Nearest(off, off_px, across, along, passed, beyond_px);
 }
 
 @fragment
@@ -343,6 +354,6 @@ fn fs_edge(in: EdgeVertex) -> EdgeTexel {
         in.sides.x,
         along,
     );
-    out.depth = min((near.off + BEYOND * near.beyond) / (near.across * MOST_PX), 1.0);
+    out.depth = min((near.off_px + BEYOND * near.beyond_px) / MOST_PX, 1.0);
     return out;
 }
