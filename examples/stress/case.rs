@@ -2,21 +2,60 @@
 
 use std::{fmt, path::PathBuf, time::Instant};
 
+use clap::ValueEnum;
 use globefill::{FillMesh, Inside, Locator, MeshOptions, Region, geo_json::regions_from_geojson};
 
 use crate::{
-    judge,
-    memory::peak_bytes,
-    plane,
+    judge, plane,
+    process::{cpu_seconds, peak_bytes},
     report::Report,
     synthetic::{self, Shape},
 };
+
+/// Which side of a file's shells is inside.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum Orientation {
+    /// The finite side on the plane of longitude and latitude, however the ring winds.
+    Plane,
+    /// [`Inside::Smaller`].
+    Smaller,
+    /// [`Inside::LeftOfRing`].
+    Left,
+}
+
+impl Orientation {
+    fn apply(self, region: &mut Region) {
+        region.inside = match self {
+            Self::Smaller => Inside::Smaller,
+            Self::Plane | Self::Left => Inside::LeftOfRing,
+        };
+        if matches!(self, Self::Plane) {
+            let shells = region.polygons.iter_mut().map(|polygon| &mut polygon.shell);
+            shells
+                .filter(|shell| plane::twice_area(shell) < 0.0)
+                .for_each(|shell| shell.reverse());
+        }
+    }
+}
+
+impl fmt::Display for Orientation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Plane => "plane",
+            Self::Smaller => "smaller",
+            Self::Left => "left",
+        })
+    }
+}
 
 /// One input.
 #[derive(Clone, Debug)]
 pub enum Case {
     /// A GeoJSON file.
-    File { path: PathBuf, inside: Inside },
+    File {
+        path: PathBuf,
+        orientation: Orientation,
+    },
     /// A made shape of about so many vertices.
     Synthetic { shape: Shape, vertices: usize },
 }
@@ -25,13 +64,9 @@ impl Case {
     /// The command line that stands for this case.
     pub fn arguments(&self) -> Vec<String> {
         match self {
-            Self::File { path, inside } => {
-                let orientation = match inside {
-                    Inside::Smaller => "smaller",
-                    Inside::LeftOfRing => "left",
-                };
+            Self::File { path, orientation } => {
                 let path = path.display().to_string();
-                vec![path, "--orientation".into(), orientation.into()]
+                vec![path, "--orientation".into(), orientation.to_string()]
             }
             Self::Synthetic { shape, vertices } => vec![
                 "--synthetic".into(),
@@ -59,10 +94,11 @@ impl Case {
             parse_peak_bytes: peak_bytes(),
             ..Report::of_input(&regions)
         };
-        let start = Instant::now();
+        let (start, cpu_s) = (Instant::now(), cpu_seconds());
         let mesh = FillMesh::build(&regions, &MeshOptions::default())
             .map_err(|error| error.to_string())?;
         report.build_s = start.elapsed().as_secs_f64();
+        report.build_cpu_s = cpu_seconds() - cpu_s;
         report.build_peak_bytes = peak_bytes();
         report.add_mesh(&mesh);
         if only_build {
@@ -87,14 +123,14 @@ impl Case {
 
     fn regions(&self) -> Result<Vec<Region>, String> {
         match self {
-            Self::File { path, inside } => {
+            Self::File { path, orientation } => {
                 let text = std::fs::read_to_string(path).map_err(|error| error.to_string())?;
                 let named = regions_from_geojson(&text).map_err(|error| error.to_string())?;
                 let mut regions: Vec<Region> =
                     named.into_iter().map(|named| named.region).collect();
-                for region in &mut regions {
-                    region.inside = *inside;
-                }
+                regions
+                    .iter_mut()
+                    .for_each(|region| orientation.apply(region));
                 Ok(regions)
             }
             Self::Synthetic { shape, vertices } => {

@@ -11,8 +11,8 @@
 
 mod case;
 mod judge;
-mod memory;
 mod plane;
+mod process;
 mod report;
 mod synthetic;
 
@@ -21,10 +21,13 @@ use std::{
     process::{Command, ExitCode},
 };
 
-use clap::{Parser, ValueEnum};
-use globefill::Inside;
+use clap::Parser;
 
-use crate::{case::Case, report::Report, synthetic::Shape};
+use crate::{
+    case::{Case, Orientation},
+    report::Report,
+    synthetic::Shape,
+};
 
 /// Meshes huge input and reports time and peak memory.
 #[derive(Parser)]
@@ -38,7 +41,7 @@ struct Arguments {
     #[arg(long, value_delimiter = ',', default_value = "1e4,1e5,1e6")]
     sizes: Vec<f64>,
     /// Which side of a file's shells is inside.
-    #[arg(long, default_value = "smaller")]
+    #[arg(long, default_value = "plane")]
     orientation: Orientation,
     /// Points at which the locator is asked and judged.
     #[arg(long, default_value_t = 2_000)]
@@ -54,20 +57,11 @@ struct Arguments {
     here: bool,
 }
 
-#[derive(Clone, Copy, ValueEnum)]
-enum Orientation {
-    Smaller,
-    Left,
-}
-
 impl Arguments {
     fn cases(&self) -> Vec<Case> {
-        let inside = match self.orientation {
-            Orientation::Smaller => Inside::Smaller,
-            Orientation::Left => Inside::LeftOfRing,
-        };
+        let orientation = self.orientation;
         let files = self.files.iter().cloned();
-        let files = files.map(|path| Case::File { path, inside });
+        let files = files.map(|path| Case::File { path, orientation });
         let synthetic = self.synthetic.iter().flat_map(|&shape| {
             let vertices = self.sizes.iter().map(|&size| size as usize);
             vertices.map(move |vertices| Case::Synthetic { shape, vertices })

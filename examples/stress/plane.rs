@@ -29,6 +29,14 @@ pub fn places(regions: &[Region], count: usize) -> Vec<LonLat> {
         .collect()
 }
 
+/// Twice the area to the left of a ring.
+pub fn twice_area(ring: &Ring) -> f64 {
+    let edges = ring.iter().zip(ring.iter().cycle().skip(1));
+    edges
+        .map(|(a, b)| (a.lon_deg - b.lon_deg) * (a.lat_deg + b.lat_deg))
+        .sum()
+}
+
 /// The fills at each place, ascending.
 pub fn fills_at(regions: &[Region], places: &[LonLat]) -> Vec<Vec<u32>> {
     let mut fills: Vec<Vec<u32>> = vec![Vec::new(); places.len()];

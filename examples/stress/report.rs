@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use crate::case::Case;
 
 /// The names of the columns of [`Report::line`].
-pub const HEADING: &str = "case                 vertices    holes   parts   stored triangles  parse s  build s  growth  \
+pub const HEADING: &str = "case                 vertices    holes   parts   stored triangles  parse s  build s    CPU s  growth  \
      input MB  peak MB  growth  locator s  query us  wrong  area error (bound)  open";
 
 /// What one case took and gave.
@@ -22,6 +22,8 @@ pub struct Report {
     pub overlaps: usize,
     pub parse_s: f64,
     pub build_s: f64,
+    /// Of all threads.
+    pub build_cpu_s: f64,
     pub measures_s: f64,
     pub locator_s: f64,
     /// A question to the locator, microseconds.
@@ -78,7 +80,7 @@ impl Report {
         };
         let mb = |bytes: u64| bytes as f64 / 1e6;
         format!(
-            "{:18} {:>10} {:>8} {:>7} {:>8} {:>9} {:>8.2} {:>8.2} {:>7} {:>9.0} {:>8.0} {:>7} {:>10.2} {:>9.1} {:>6} {:>9.1e} ({:.0e}) {:>5}",
+            "{:18} {:>10} {:>8} {:>7} {:>8} {:>9} {:>8.2} {:>8.2} {:>8.2} {:>7} {:>9.0} {:>8.0} {:>7} {:>10.2} {:>9.1} {:>6} {:>9.1e} ({:.0e}) {:>5}",
             case.to_string(),
             self.vertices,
             self.holes,
@@ -87,7 +89,8 @@ impl Report {
             self.triangles,
             self.parse_s,
             self.build_s,
-            growth(|report| report.build_s),
+            self.build_cpu_s,
+            growth(|report| report.build_cpu_s),
             mb(self.parse_peak_bytes),
             mb(self.build_peak_bytes),
             growth(|report| report.build_peak_bytes as f64),
@@ -113,6 +116,7 @@ impl Report {
             "overlaps": self.overlaps,
             "parse_s": self.parse_s,
             "build_s": self.build_s,
+            "build_cpu_s": self.build_cpu_s,
             "measures_s": self.measures_s,
             "locator_s": self.locator_s,
             "query_us": self.query_us,
@@ -144,6 +148,7 @@ impl Report {
             overlaps: size("overlaps"),
             parse_s: number("parse_s"),
             build_s: number("build_s"),
+            build_cpu_s: number("build_cpu_s"),
             measures_s: number("measures_s"),
             locator_s: number("locator_s"),
             query_us: number("query_us"),

@@ -146,7 +146,7 @@ fn contained(ellipsoid: &Ellipsoid, graph: &BoundaryGraph, pieces: &[Boundary]) 
             .flatten()
             .map(move |&edge| (edge, piece as u32))
     });
-    let index = MeridianIndex::new(graph, labelled);
+    let index = MeridianIndex::new(ellipsoid, graph, labelled);
     let has_pole = |piece: u32| {
         let boundary = &pieces[piece as usize];
         boundary.loops.is_empty() || boundary.enclosed.has_north_pole()
