@@ -65,7 +65,7 @@ impl Locator {
         let polar = (0..mesh.pieces.len() as u32).filter(|&piece| has_pole[piece as usize]);
         Self {
             ellipsoid: mesh.ellipsoid,
-            index: MeridianIndex::new(&graph, labelled.into_iter()),
+            index: MeridianIndex::new(&mesh.ellipsoid, &graph, labelled.into_iter()),
             graph: graph.finished(),
             fill_of_piece: mesh.pieces.iter().map(|piece| piece.fill).collect(),
             polar: polar.collect(),

@@ -121,7 +121,7 @@ fn direct_others(
         .iter()
         .enumerate()
         .flat_map(|(label, side)| side.component.edges().map(move |edge| (edge, label as u32)));
-    let index = MeridianIndex::new(graph, labelled);
+    let index = MeridianIndex::new(ellipsoid, graph, labelled);
     // Per component those that separate a point of it from the north pole.
     let separating: Vec<Vec<u32>> = sides
         .iter()

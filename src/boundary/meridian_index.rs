@@ -1,79 +1,114 @@
 //! Which boundaries a meridian crosses on its way from a point to the north pole.
 
+mod cells;
+mod columns;
+#[cfg(test)]
+mod tests;
+
 use crate::{
-    boundary::boundary_graph::{BoundaryGraph, DirectedEdge},
+    boundary::boundary_graph::{BoundaryGraph, DirectedEdge, Edge},
     boundary::edge_grid::LatticeBox,
-    boundary::lattice::{LatticePoint, TURN, wrap},
+    boundary::lattice::{LatticePoint, POLE, TURN, wrap},
     boundary::meeting::passes_north_of,
     ellipsoid::Ellipsoid,
 };
+use cells::{Cell, add_cells};
+use columns::Columns;
 
-/// Labelled edges sorted into columns of longitude.
+/// Labelled boundaries, each closed, sorted into columns of longitude and these into cells of latitude.
+///
+/// Each cell knows the answer for its upper western corner, so that a question walks from its point to
+/// that corner only, past the few edges of the cell, and not past all edges as far as the pole.
 #[derive(Debug)]
 pub(crate) struct MeridianIndex {
     columns: Columns,
-    /// Per column the end of its run in `entries`.
-    ends: Vec<u32>,
-    /// Edges and their labels.
+    /// Per column the end of its run in `cells`.
+    cell_ends: Vec<u32>,
+    /// From north to south in each column.
+    cells: Vec<Cell>,
+    /// Edges and their labels, cell after cell.
     entries: Vec<(u32, u32)>,
-    /// Meridians on which edges reach the north pole, with the edges' labels.
+    /// Labels that separate the cells' corners from the pole, each run sorted.
+    corner_labels: Vec<u32>,
+    /// Meridians on which edges reach the north pole, ascending, with the edges' labels.
     polar: Vec<(i64, u32)>,
 }
 
+/// An edge with its label and between which latitudes it lies, in lattice steps.
+#[derive(Clone, Copy, Debug)]
+struct Labelled {
+    edge: u32,
+    label: u32,
+    south: i64,
+    north: i64,
+}
+
 impl MeridianIndex {
+    /// Indexes boundaries: all edges of one label together must be closed curves.
     pub(crate) fn new(
+        ellipsoid: &Ellipsoid,
         graph: &BoundaryGraph,
         labelled: impl Iterator<Item = (DirectedEdge, u32)>,
     ) -> Self {
-        let labelled: Vec<(DirectedEdge, u32)> = labelled.collect();
-        let spans: Vec<(i64, i64)> = labelled
-            .iter()
-            .map(|(edge, _)| LatticeBox::around(&graph.edges[edge.edge() as usize]))
-            .map(|edge_box| (edge_box.west, edge_box.east))
-            .collect();
-        let columns = Columns::new(&spans);
-        let mut ends = vec![0_u32; columns.count()];
-        for &span in &spans {
-            columns.touched(span).for_each(|column| ends[column] += 1);
-        }
-        let mut total = 0;
-        for end in &mut ends {
-            total += *end;
-            *end = total - *end;
-        }
-        let mut entries = vec![(0, 0); total as usize];
+        let mut spans = Vec::new();
         let mut polar = Vec::new();
-        for (&(directed, label), &span) in labelled.iter().zip(&spans) {
-            for column in columns.touched(span) {
-                entries[ends[column] as usize] = (directed.edge(), label);
-                ends[column] += 1;
-            }
-            let edge = &graph.edges[directed.edge() as usize];
-            let tips = [edge.start, edge.end].into_iter();
-            let tips = tips.filter(|tip| tip.is_pole() && tip.lat > 0);
-            polar.extend(tips.map(|tip| (wrap(tip.lon), label)));
-        }
-        Self {
+        let labelled: Vec<Labelled> = labelled
+            .map(|(directed, label)| {
+                let edge = &graph.edges[directed.edge() as usize];
+                let edge_box = LatticeBox::around(edge);
+                spans.push((edge_box.west, edge_box.east));
+                let tips = [edge.start, edge.end].into_iter();
+                let tips = tips.filter(|tip| tip.is_pole() && tip.lat > 0);
+                polar.extend(tips.map(|tip| (wrap(tip.lon), label)));
+                Labelled {
+                    edge: directed.edge(),
+                    label,
+                    south: edge_box.south,
+                    north: edge_box.north,
+                }
+            })
+            .collect();
+        polar.sort_unstable();
+        let columns = Columns::new(&spans);
+        let (ends, members) = columns.sorted_into(&spans);
+        let mut index = Self {
+            cell_ends: Vec::with_capacity(columns.count()),
             columns,
-            ends,
-            entries,
+            cells: Vec::new(),
+            entries: Vec::with_capacity(members.len()),
+            corner_labels: Vec::new(),
             polar,
-        }
-    }
-
-    fn column_at(&self, lon: i64) -> &[(u32, u32)] {
-        let column = self.columns.of(lon);
-        let first = if column == 0 {
-            0
-        } else {
-            self.ends[column - 1]
         };
-        &self.entries[first as usize..self.ends[column] as usize]
+        let mut first = 0;
+        for (column, &end) in ends.iter().enumerate() {
+            let members = members[first as usize..end as usize].iter();
+            let column_edges = members.map(|&member| labelled[member as usize]).collect();
+            add_cells(&mut index, ellipsoid, graph, column, column_edges);
+            index.cell_ends.push(index.cells.len() as u32);
+            first = end;
+        }
+        index
     }
 
     /// How many edges [`Self::separating`] looks at for a point.
     pub(crate) fn passed(&self, point: LatticePoint) -> u64 {
-        (self.column_at(point.lon).len() + self.polar.len()) as u64
+        let (_, row, cell) = self.cell_at(point);
+        let polar = if row == 0 { self.polar.len() } else { 0 };
+        (cell.entries().len() + cell.corner_labels().len() + polar) as u64
+    }
+
+    /// The cell that holds a point: its column, its row, itself.
+    fn cell_at(&self, point: LatticePoint) -> (usize, usize, &Cell) {
+        let column = self.columns.of(point.lon);
+        let first_cell = match column.checked_sub(1) {
+            Some(before) => self.cell_ends[before] as usize,
+            None => 0,
+        };
+        let cells = &self.cells[first_cell..self.cell_ends[column] as usize];
+        // The first cell reaches up to the pole.
+        let above = cells.partition_point(|cell| cell.ceiling >= point.lat);
+        let row = above.saturating_sub(1);
+        (column, row, &cells[row])
     }
 
     /// Labels of the boundaries that separate `point` (not the north pole) from the neighbourhood of the
@@ -88,83 +123,85 @@ impl MeridianIndex {
         point: LatticePoint,
         mut on_node: impl FnMut(u32),
     ) -> Vec<u32> {
-        let mut crossed = Vec::new();
-        for &(edge, label) in self.column_at(point.lon) {
+        let (column, row, cell) = self.cell_at(point);
+        let corner = LatticePoint::new(self.columns.start(column), cell.ceiling);
+        let mut crossed = self.corner_labels[cell.corner_labels()].to_vec();
+        let way = Way { corner, point };
+        for &(edge, label) in &self.entries[cell.entries()] {
             let edge = &graph.edges[edge as usize];
-            if graph.nodes[edge.from as usize] == point || graph.nodes[edge.to as usize] == point {
+            let is_end = [edge.from, edge.to]
+                .iter()
+                .any(|&node| graph.nodes[node as usize] == point);
+            if is_end {
                 on_node(label);
-            } else if passes_north_of(ellipsoid, edge, point) {
+            }
+            if way.crosses(ellipsoid, edge, is_end) {
                 crossed.push(label);
             }
         }
-        // Round the pole eastward to 180° every edge that ends there in between is crossed.
-        crossed.extend(
-            self.polar
-                .iter()
-                .filter(|&&(lon, _)| point.lon < lon)
-                .map(|&(_, label)| label),
-        );
+        if row == 0 {
+            // Along the pole, where all edges that end there are crossed.
+            let beside = |&&(lon, _): &&(i64, u32)| way.passes(lon);
+            crossed.extend(self.polar.iter().filter(beside).map(|&(_, label)| label));
+        }
         crossed.sort_unstable();
         odd_ones(&crossed)
     }
 }
 
-/// Columns of longitude in which about equally many edges begin, however unevenly they lie.
-#[derive(Debug)]
-struct Columns {
-    /// Where columns begin, ascending; the last one ends where the first begins.
-    starts: Vec<i64>,
+/// The way from a point northward to the latitude of its cell's corner and along that westward.
+///
+/// All places on it are meant a little further north and, much less, further east: so no vertex lies on
+/// it. Of an edge between both meridians the parts at either end are above the ceiling or not, and where
+/// they differ it crosses the way. What that says of an edge that ends in between is taken back by the
+/// next edge of the same closed boundary.
+struct Way {
+    corner: LatticePoint,
+    point: LatticePoint,
 }
 
-impl Columns {
-    /// Columns for edges that span these longitudes, west to east.
-    fn new(spans: &[(i64, i64)]) -> Self {
-        let mut begins: Vec<i64> = spans.iter().map(|&(west, _)| west).collect();
-        begins.sort_unstable();
-        let mut per_column = 8;
-        loop {
-            let mut starts: Vec<i64> = begins.iter().copied().step_by(per_column).collect();
-            starts.dedup();
-            let columns = Self { starts };
-            // Long edges lie in many columns: make those wider until the entries are few.
-            let entries: usize = spans.iter().map(|&span| columns.touched_count(span)).sum();
-            if entries <= 16 * spans.len() || columns.starts.len() <= 1 {
-                return columns;
-            }
-            per_column *= 2;
-        }
+impl Way {
+    /// Lattice steps from the corner's meridian eastward.
+    fn east(&self, lon: i64) -> i64 {
+        (lon - self.corner.lon).rem_euclid(TURN)
     }
 
-    fn count(&self) -> usize {
-        self.starts.len().max(1)
+    /// Whether a meridian lies between the point's and the corner's.
+    fn passes(&self, lon: i64) -> bool {
+        (1..=self.east(self.point.lon)).contains(&self.east(lon))
     }
 
-    /// The column of a longitude in (−180°, 180°].
-    fn of(&self, lon: i64) -> usize {
-        let begun = self.starts.partition_point(|&start| start <= lon);
-        if begun == 0 {
-            self.count() - 1
-        } else {
-            begun - 1
-        }
-    }
-
-    fn touched_count(&self, (west, east): (i64, i64)) -> usize {
-        let (first, last) = (self.of(west), self.of(wrap(east)));
-        let more = if east - west >= TURN {
-            self.count() - 1
-        } else if last < first || last == first && wrap(east) < west {
-            last + self.count() - first
-        } else {
-            last - first
+    /// Whether an edge crosses the way an odd number of times. `is_end`: the point is one of its ends.
+    fn crosses(&self, ellipsoid: &Ellipsoid, edge: &Edge, is_end: bool) -> bool {
+        let (west, east) = match edge.turn() >= 0 {
+            true => (edge.start, edge.end),
+            false => (edge.end, edge.start),
         };
-        more.min(self.count() - 1) + 1
+        let length = self.east(self.point.lon);
+        let above = |end: LatticePoint| end.lat > self.corner.lat;
+        let first = self.east(west.lon);
+        // The edge may enter the column once more from the west.
+        [first, first - TURN].into_iter().fold(false, |odd, begin| {
+            let end = begin + (east.lon - west.lon);
+            if begin > length || end <= 0 {
+                return odd;
+            }
+            let at_begin = match begin <= 0 {
+                true => passes_corner(ellipsoid, edge, self.corner),
+                false => above(west),
+            };
+            let at_end = match end > length {
+                true => !is_end && passes_north_of(ellipsoid, edge, self.point),
+                false => above(east),
+            };
+            odd ^ at_begin ^ at_end
+        })
     }
+}
 
-    fn touched(&self, span: (i64, i64)) -> impl Iterator<Item = usize> + use<> {
-        let (first, count) = (self.of(span.0), self.count());
-        (first..first + self.touched_count(span)).map(move |column| column % count)
-    }
+/// Whether an edge runs over the meridian of a cell's corner north of it.
+fn passes_corner(ellipsoid: &Ellipsoid, edge: &Edge, corner: LatticePoint) -> bool {
+    corner.lat < POLE && passes_north_of(ellipsoid, edge, corner)
 }
 
 /// Of sorted labels those that occur an odd number of times.
@@ -173,47 +210,4 @@ fn odd_ones(sorted: &[u32]) -> Vec<u32> {
     runs.filter(|run| run.len() % 2 == 1)
         .map(|run| run[0])
         .collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::{curve::Curve, geodetic::LonLat, region::EdgeKind};
-
-    #[test]
-    fn boxes_and_polar_rings_separate() {
-        for kind in [EdgeKind::Straight, EdgeKind::Rhumb, EdgeKind::Geodesic] {
-            let mut graph = BoundaryGraph::default();
-            let rings: [&[(f64, f64)]; 3] = [
-                &[(170.0, 0.0), (-170.0, 0.0), (-170.0, 20.0), (170.0, 20.0)],
-                &[(0.0, 70.0), (120.0, 70.0), (-120.0, 70.0)],
-                &[(10.0, 60.0), (50.0, 60.0), (50.0, 90.0), (10.0, 90.0)],
-            ];
-            let mut edges = Vec::new();
-            for (label, ring) in rings.iter().enumerate() {
-                for k in 0..ring.len() {
-                    let [a, b] = [ring[k], ring[(k + 1) % ring.len()]]
-                        .map(|(lon, lat)| LonLat::new(lon, lat));
-                    edges.extend(
-                        graph
-                            .insert_curve(&Curve::between(kind, a, b))
-                            .map(|edge| (edge, label as u32)),
-                    );
-                }
-            }
-            let index = MeridianIndex::new(&graph, edges.iter().copied());
-            let separating = |lon, lat| {
-                let point = LatticePoint::nearest(LonLat::new(lon, lat)).canonical();
-                index.separating(&Ellipsoid::WGS84, &graph, point, |_| {
-                    panic!("not on a node")
-                })
-            };
-            assert_eq!(separating(180.0, 10.0), [0, 1]);
-            assert_eq!(separating(-171.0, 1.0), [0, 1]);
-            assert_eq!(separating(-171.0, -1.0), [1]);
-            assert_eq!(separating(0.5, 85.0), [0; 0]);
-            assert_eq!(separating(30.0, 69.0), [1, 2]);
-            assert_eq!(separating(30.0, 88.0), [2]);
-        }
-    }
 }

@@ -164,7 +164,7 @@ fn contained(
             .flatten()
             .map(move |&edge| (edge, piece as u32))
     });
-    let index = MeridianIndex::new(graph, labelled);
+    let index = MeridianIndex::new(ellipsoid, graph, labelled);
     let loops = || pieces.iter().flat_map(|piece| &piece.loops);
     let starts = loops().map(|edges| point_on(graph, edges.iter().copied()));
     if starts.map(|point| index.passed(point)).sum::<u64>() > MOST_PASSED {

@@ -17,6 +17,33 @@ impl FillMesh {
         pieces.fold(Measures::default(), Measures::plus)
     }
 
+    /// [`Self::measures`] of every fill, in their order: in one pass over the boundary, where asking
+    /// fill by fill takes a pass each.
+    pub fn all_measures(&self) -> Vec<Measures> {
+        let mut sides: Vec<(u32, u32, bool)> = Vec::with_capacity(2 * self.arcs.len());
+        for (index, arc) in (0..).zip(&self.arcs) {
+            sides.extend(arc.left.map(|piece| (piece, index, true)));
+            sides.extend(arc.right.map(|piece| (piece, index, false)));
+        }
+        sides.sort_unstable();
+        let mut rest = &sides[..];
+        let pieces = (0_u32..).zip(&self.pieces);
+        let mut fills = vec![Measures::default(); self.fills.len()];
+        for (index, piece) in pieces {
+            let (own, others) = rest.split_at(rest.partition_point(|side| side.0 == index));
+            rest = others;
+            // One outline at a time: prepared curves are large.
+            let mut outline = Outline::new(self.ellipsoid, Vec::new());
+            for &(_, arc, is_left) in own {
+                self.add_side(&mut outline, &self.arcs[arc as usize], is_left);
+            }
+            if let Some(fill) = fills.get_mut(piece.fill as usize) {
+                *fill = fill.plus(self.piece_measures(&outline));
+            }
+        }
+        fills
+    }
+
     /// Area of a fill on the ellipsoid, m²: that of [`Self::measures`].
     pub fn area_m2(&self, fill: u32) -> f64 {
         self.measures(fill).area_m2
@@ -72,15 +99,21 @@ impl FillMesh {
             for (side, is_left) in [(arc.left, true), (arc.right, false)] {
                 let piece = side.and_then(|piece| piece.checked_sub(record.first_piece));
                 let outline = piece.and_then(|piece| outlines.get_mut(piece as usize));
-                let Some(outline) = outline else { continue };
-                let curves = self.curves_along(arc).iter();
-                outline.stretches.extend(curves.map(|curve| {
-                    let curve = if is_left { *curve } else { curve.reversed() };
-                    curve.on(&self.ellipsoid)
-                }));
+                if let Some(outline) = outline {
+                    self.add_side(outline, arc, is_left);
+                }
             }
         }
         outlines
+    }
+
+    /// Adds an arc to the outline of the piece on one of its sides.
+    fn add_side(&self, outline: &mut Outline<CurveOn>, arc: &Arc, is_left: bool) {
+        let curves = self.curves_along(arc).iter();
+        outline.stretches.extend(curves.map(|curve| {
+            let curve = if is_left { *curve } else { curve.reversed() };
+            curve.on(&self.ellipsoid)
+        }));
     }
 
     fn piece_measures(&self, piece: &Outline<CurveOn>) -> Measures {
