@@ -1,6 +1,7 @@
 //! Laws that every mesh keeps, on real countries and on shapes that break others.
 
 mod hostile;
+mod huge;
 mod law;
 mod real;
 mod shapes;
