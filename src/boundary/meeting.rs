@@ -5,8 +5,8 @@ use crate::{
     boundary::curved_meeting::{
         Traced, curved_meetings, meetings_beyond_common_node, same_circle_meetings,
     },
-    boundary::edge_grid::LatticeBox,
     boundary::lattice::{LatticePoint, TURN, orientation},
+    boundary::lattice_box::LatticeBox,
     curve::{CurveKind, CurveOn},
     ellipsoid::Ellipsoid,
 };

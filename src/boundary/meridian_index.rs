@@ -7,8 +7,8 @@ mod tests;
 
 use crate::{
     boundary::boundary_graph::{BoundaryGraph, DirectedEdge, Edge},
-    boundary::edge_grid::LatticeBox,
     boundary::lattice::{LatticePoint, POLE, TURN, wrap},
+    boundary::lattice_box::LatticeBox,
     boundary::meeting::passes_north_of,
     ellipsoid::Ellipsoid,
 };

@@ -10,8 +10,9 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use crate::{
     boundary::boundary_graph::{BoundaryGraph, DirectedEdge, Edge},
     boundary::curved_meeting::Traced,
-    boundary::edge_grid::{EdgeGrid, LatticeBox},
+    boundary::edge_grid::EdgeGrid,
     boundary::lattice::LatticePoint,
+    boundary::lattice_box::LatticeBox,
     boundary::meeting::{Meeting, meetings},
     boundary::rings::RingWalk,
     curve::CurveKind,
@@ -64,6 +65,7 @@ pub(crate) fn node_boundaries(
         let found = find_meetings(ellipsoid, graph, &users, first_fresh, limits, met)?;
         met += found.len();
         let mut splits = Splits::default();
+        let mut crossed = Vec::new();
         for (first, second, meeting) in found {
             match meeting {
                 Meeting::NodeOnFirst(node) => splits.add(first, graph.nodes[node as usize]),
@@ -71,12 +73,8 @@ pub(crate) fn node_boundaries(
                 Meeting::Crossing(point) => match users.common(first, second) {
                     // Whoever else walks these edges meets at a node then, where sectors tell.
                     Some(polygon) => {
-                        let polygon = &polygons[polygon as usize];
-                        if !polygon.is_zone {
-                            repairs.push(Repair {
-                                place: polygon.place_of(first),
-                                kind: RepairKind::Crossing,
-                            });
+                        if !polygons[polygon as usize].is_zone {
+                            crossed.push((polygon, first));
                         }
                         splits.add(first, point);
                         splits.add(second, point);
@@ -91,6 +89,7 @@ pub(crate) fn node_boundaries(
                 });
             }
         }
+        report_crossings(polygons, crossed, repairs);
         if splits.points.is_empty() {
             break;
         }
@@ -100,20 +99,43 @@ pub(crate) fn node_boundaries(
     Ok(crossing)
 }
 
+/// Reports polygons that cross themselves, each with an edge that does.
+fn report_crossings(
+    polygons: &[PolygonWalk],
+    mut crossed: Vec<(u32, u32)>,
+    repairs: &mut Vec<Repair>,
+) {
+    crossed.sort_unstable();
+    for run in crossed.chunk_by(|a, b| a.0 == b.0) {
+        let polygon = &polygons[run[0].0 as usize];
+        let places = polygon.places_of(run.iter().map(|&(_, edge)| edge));
+        repairs.extend(run.iter().map(|(_, edge)| Repair {
+            place: places.get(edge).copied().unwrap_or(polygon.place),
+            kind: RepairKind::Crossing,
+        }));
+    }
+}
+
 impl PolygonWalk {
-    /// Where in the input an edge of this polygon starts.
-    fn place_of(&self, edge: u32) -> Place {
+    /// Where in the input these edges of this polygon start, in one walk along it.
+    fn places_of(&self, edges: impl Iterator<Item = u32>) -> FxHashMap<u32, Place> {
+        let mut wanted: FxHashSet<u32> = edges.collect();
+        let mut places = FxHashMap::default();
         for (ring, walk) in self.rings.iter().enumerate() {
-            if let Some(index) = walk.edges.iter().position(|used| used.edge() == edge) {
-                let vertex = walk.vertices[index] as usize;
-                return Place {
-                    ring,
-                    vertex,
-                    ..self.place
-                };
+            for (edge, &vertex) in walk.edges.iter().zip(&walk.vertices) {
+                // Where it is walked first.
+                if wanted.remove(&edge.edge()) {
+                    let vertex = vertex as usize;
+                    let place = Place {
+                        ring,
+                        vertex,
+                        ..self.place
+                    };
+                    places.insert(edge.edge(), place);
+                }
             }
         }
-        self.place
+        places
     }
 }
 

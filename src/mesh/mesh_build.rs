@@ -48,6 +48,7 @@ pub(crate) fn build(regions: &[Region], options: &MeshOptions) -> Result<FillMes
     let mut polygons = walk_polygons(regions, &ellipsoid, &mut graph, &mut mesh.repairs)?;
     let repairs = &mut mesh.repairs;
     let crossing = node_boundaries(&ellipsoid, &mut graph, &mut polygons, repairs, limits)?;
+    let graph = graph.finished();
     let boundaries = bound_polygons(regions, &ellipsoid, &graph, &polygons, &mut mesh.repairs)?;
     mesh.repairs.sort_by_key(|repair| {
         let Place {
@@ -60,6 +61,7 @@ pub(crate) fn build(regions: &[Region], options: &MeshOptions) -> Result<FillMes
     });
 
     let piece_of_polygon = mesh.add_pieces(regions.len(), &polygons, &boundaries);
+    drop(polygons);
     let pieces: Vec<Boundary> = boundaries.into_iter().flatten().collect();
     let sides = EdgeSides::new(&graph, &pieces);
     let crossing = crossing_pieces(crossing, &piece_of_polygon);
@@ -257,6 +259,25 @@ fn crossing_pieces(crossing: PolygonPairs, piece_of_polygon: &[Option<u32>]) -> 
         .collect()
 }
 
+/// Chains are densified so many edges at a time: what is not yet in the mesh stays small.
+const BATCH_EDGES: usize = 1 << 18;
+
+fn batches<'a>(chains: &'a [&'a Chain]) -> impl Iterator<Item = &'a [&'a Chain]> {
+    let mut rest = chains;
+    std::iter::from_fn(move || {
+        let mut edges = 0;
+        let is_within = |chain: &&&Chain| {
+            edges += chain.edges.len();
+            edges <= BATCH_EDGES
+        };
+        // One at least, however long it is.
+        let count = rest.iter().take_while(is_within).count().max(1);
+        let (batch, others) = rest.split_at_checked(count)?;
+        rest = others;
+        Some(batch)
+    })
+}
+
 impl FillMesh {
     /// Adds fills and pieces; answers the piece of each polygon.
     fn add_pieces(
@@ -302,22 +323,22 @@ impl FillMesh {
             .collect();
         let room = VertexRoom::new(options.limits);
         let tolerance_m = options.tolerance_m;
-        let dense: Vec<DenseChain> = chains
-            .par_iter()
-            .map(|chain| match chain.is_copy {
-                false => densify(&ellipsoid, graph, &node_ecef_m, chain, tolerance_m, &room),
-                true => DenseChain::default(),
-            })
-            .collect();
-        room.check()?;
+        let edge_count = chains.iter().map(|chain| chain.edges.len()).sum();
+        self.curves.reserve(edge_count);
+        self.vertices.reserve(edge_count + chains.len());
+        self.boundary.reserve(edge_count + chains.len());
         let mut runs = VertexRuns::new(graph);
-        for (chain, dense) in chains
-            .iter()
-            .zip(&dense)
-            .filter(|(chain, _)| !chain.is_copy)
-        {
-            runs.add(graph, chain, dense, self.vertices.len() as u32);
-            self.add_arc(chain, dense);
+        let originals: Vec<&Chain> = chains.iter().filter(|chain| !chain.is_copy).collect();
+        for batch in batches(&originals) {
+            let dense: Vec<DenseChain> = batch
+                .par_iter()
+                .map(|chain| densify(&ellipsoid, graph, &node_ecef_m, chain, tolerance_m, &room))
+                .collect();
+            room.check()?;
+            for (chain, dense) in batch.iter().zip(dense) {
+                runs.add(graph, chain, &dense, self.vertices.len() as u32);
+                self.add_arc(chain, &dense);
+            }
         }
         for chain in chains.iter().filter(|chain| chain.is_copy) {
             let copy = self.copy_of(graph, chain, &runs);

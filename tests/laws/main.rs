@@ -2,6 +2,7 @@
 
 mod degenerate;
 mod hostile;
+mod huge;
 mod law;
 mod real;
 mod shapes;

@@ -53,7 +53,7 @@ impl Constrained {
             ears: Vec::new(),
         };
         this.walk_along(outline, &sites.of_point)?;
-        this.wind();
+        this.winding = this.counted_winding();
         Some(this)
     }
 
@@ -115,8 +115,8 @@ impl Constrained {
         }
     }
 
-    /// Counts how often the loops wind around each face, from the pole inwards.
-    pub(super) fn wind(&mut self) {
+    /// How often the loops wind around each face, counted from the pole inwards.
+    fn counted_winding(&self) -> Vec<i32> {
         const UNKNOWN: i32 = i32::MIN;
         let mut winding = vec![UNKNOWN; self.cdt.num_all_faces()];
         winding[self.cdt.outer_face().fix().index()] = self.winding_of_pole;
@@ -132,7 +132,7 @@ impl Constrained {
                 pending.extend(face.adjacent_edges());
             }
         }
-        self.winding = winding;
+        winding
     }
 
     /// How often loops walk along a directed edge, less how often against it.
@@ -153,20 +153,33 @@ impl Constrained {
     }
 
     /// Adds a vertex, unless it would split a piece of boundary. It is looked for from `near` on.
+    ///
+    /// Edges that are flipped then are no boundary, so faces keep their winding numbers, and new faces
+    /// have the one of the place where the vertex went.
     pub(super) fn insert(&mut self, plane: DVec2, point: DVec3, near: FixedVertexHandle) {
         let position = position(plane);
-        let beside_boundary = match self.cdt.locate_with_hint(position, near) {
-            PositionInTriangulation::OnFace(_) => true,
+        let winding = match self.cdt.locate_with_hint(position, near) {
+            PositionInTriangulation::OnFace(face) => Some(self.winding(face)),
             PositionInTriangulation::OnEdge(edge) => {
-                !self.cdt.is_constraint_edge(edge.as_undirected())
+                let face = self.cdt.directed_edge(edge).face().fix();
+                let is_boundary = self.cdt.is_constraint_edge(edge.as_undirected());
+                (!is_boundary).then(|| self.winding[face.index()])
             }
-            PositionInTriangulation::OutsideOfConvexHull(_) => true,
-            _ => false,
+            PositionInTriangulation::OutsideOfConvexHull(_) => Some(self.winding_of_pole),
+            _ => None,
         };
         // A finite position is the only condition of an insertion.
-        if beside_boundary && self.cdt.insert_with_hint(position, near).is_ok() {
+        if let Some(winding) = winding
+            && self.cdt.insert_with_hint(position, near).is_ok()
+        {
             self.points.push(point);
+            self.winding.resize(self.cdt.num_all_faces(), winding);
         }
+    }
+
+    /// Whether the winding numbers are those that counting anew gives.
+    pub(super) fn is_wound(&self) -> bool {
+        self.winding == self.counted_winding()
     }
 
     /// Every face as often as the loops wind around it, clockwise where they do so clockwise.

@@ -29,13 +29,12 @@ pub(super) fn refine(constrained: &mut Constrained) {
     for (point, near) in lattice_points(constrained, &deep) {
         constrained.insert(constrained.chart.project(point), point, near);
     }
-    constrained.wind();
     for _ in 0..ROUNDS {
         if constrained.interior_count() > INTERIOR_MAX || !split_long_sides(constrained) {
             break;
         }
-        constrained.wind();
     }
+    debug_assert!(constrained.is_wound());
 }
 
 /// Per face, whether it is filled and sags too deep.
