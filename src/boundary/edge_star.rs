@@ -141,6 +141,9 @@ mod tests {
         meeting::meetings,
     };
 
+    /// What visits pairs of edges.
+    type Pairs<'a> = &'a mut dyn FnMut(&mut dyn FnMut(u32, u32));
+
     #[test]
     fn only_pairs_that_meet_nowhere_else_are_left_out() {
         let mut graph = BoundaryGraph::default();
@@ -164,7 +167,7 @@ mod tests {
             );
         }
         let members: Vec<u32> = (0..graph.edges.len() as u32).collect();
-        let found = |pairs: &mut dyn FnMut(&mut dyn FnMut(u32, u32))| {
+        let found = |pairs: Pairs<'_>| {
             let mut found = Vec::new();
             pairs(&mut |a, b| {
                 let both = [a, b].map(|index| &graph.edges[index as usize]);
