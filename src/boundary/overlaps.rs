@@ -14,6 +14,7 @@ use crate::{
     boundary::boundary_graph::{BoundaryGraph, DirectedEdge},
     boundary::headings::sort_counter_clockwise,
     boundary::inside::{Boundary, point_on},
+    boundary::lattice::LatticePoint,
     boundary::meridian_index::MeridianIndex,
     ellipsoid::Ellipsoid,
     error::RegionError,
@@ -65,7 +66,9 @@ pub(crate) fn overlaps(
     };
     add_same_side(sides, &mut pairs)?;
     add_common_sectors(ellipsoid, graph, sides, pieces, &mut pairs)?;
-    pairs.found.extend(contained(ellipsoid, graph, pieces));
+    pairs
+        .found
+        .extend(contained(ellipsoid, graph, sides, pieces));
     let mut sorted: Vec<Pair> = pairs.found.into_iter().collect();
     sorted.sort_unstable();
     Ok(sorted)
@@ -138,7 +141,12 @@ fn add_common_sectors(
 }
 
 /// Pieces that contain a vertex of a loop of another.
-fn contained(ellipsoid: &Ellipsoid, graph: &BoundaryGraph, pieces: &[Boundary]) -> Vec<Pair> {
+fn contained(
+    ellipsoid: &Ellipsoid,
+    graph: &BoundaryGraph,
+    sides: &EdgeSides,
+    pieces: &[Boundary],
+) -> Vec<Pair> {
     let labelled = pieces.iter().enumerate().flat_map(|(piece, boundary)| {
         boundary
             .loops
@@ -162,7 +170,7 @@ fn contained(ellipsoid: &Ellipsoid, graph: &BoundaryGraph, pieces: &[Boundary]) 
             let (index, polar) = (&index, &polar);
             boundary.loops.iter().flat_map(move |edges| {
                 let mut void = vec![own];
-                let point = point_on(graph, edges.iter().copied());
+                let point = quiet_point_on(graph, sides, edges);
                 let separating =
                     index.separating(ellipsoid, graph, point, |label| void.push(label));
                 let outside_pole = separating.iter().filter(|&&other| !has_pole(other));
@@ -178,4 +186,19 @@ fn contained(ellipsoid: &Ellipsoid, graph: &BoundaryGraph, pieces: &[Boundary]) 
             })
         })
         .collect()
+}
+
+/// A node of a loop where, if there is one, no other piece's edges end: many loops may share a node.
+fn quiet_point_on(
+    graph: &BoundaryGraph,
+    sides: &EdgeSides,
+    edges: &[DirectedEdge],
+) -> LatticePoint {
+    let is_quiet = |edge: &&DirectedEdge| sides.degree(graph.start_node(**edge)) == 2;
+    let own = point_on(graph, edges.iter().filter(is_quiet).copied());
+    if own == LatticePoint::default() {
+        point_on(graph, edges.iter().copied())
+    } else {
+        own
+    }
 }
