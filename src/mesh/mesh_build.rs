@@ -2,11 +2,12 @@
 
 use glam::DVec3;
 use rayon::prelude::*;
+use rustc_hash::FxHashSet;
 
 use crate::{
     boundary::arcs::{Chain, EdgeSides, chains},
     boundary::authalic::Authalic,
-    boundary::boundary_graph::BoundaryGraph,
+    boundary::boundary_graph::{BoundaryGraph, DirectedEdge},
     boundary::inside::{Boundary, direct},
     boundary::noding::{PolygonPairs, PolygonWalk, node_boundaries},
     boundary::overlaps::overlaps,
@@ -144,22 +145,23 @@ fn bound_polygons(
     repairs: &mut Vec<Repair>,
 ) -> Result<Vec<Option<Boundary>>, RegionError> {
     let authalic = Authalic::new(*ellipsoid);
-    let is_simple = simple_polygons(graph, polygons);
+    let tangled = tangled_rings(graph, polygons);
     let bounded: Result<Vec<Bounded>, RegionError> = polygons
         .par_iter()
-        .zip(is_simple)
-        .map(|(walk, is_simple)| {
+        .zip(tangled)
+        .map(|(walk, tangled)| {
             if walk.is_zone {
-                let boundary = bound_zone(ellipsoid, graph, &authalic, walk, is_simple)?;
+                let boundary = bound_zone(ellipsoid, graph, &authalic, walk, tangled.is_empty())?;
                 return Ok((Some(boundary), Vec::new()));
             }
             let region = &regions[walk.place.region];
             let mut repairs = Vec::new();
-            let components = if is_simple {
-                rings_as_components(walk)
-            } else {
-                even_odd_components(ellipsoid, graph, walk, &mut repairs)
-            };
+            let mut components = rings_as_components(walk, &tangled);
+            if !tangled.is_empty() {
+                let walk = only_rings(walk, &tangled);
+                components.extend(even_odd_components(ellipsoid, graph, &walk, &mut repairs));
+                components.sort_by_key(|component| component.ring);
+            }
             let shell_is_left = components.iter().any(|component| !component.is_hole());
             let shell = &region.polygons[walk.place.polygon].shell;
             let is_globe =
@@ -182,36 +184,56 @@ fn bound_polygons(
     Ok(bounded.collect())
 }
 
-/// Which polygons visit no node and walk no edge twice: nearly all, and they need no decomposition.
-fn simple_polygons(graph: &BoundaryGraph, polygons: &[PolygonWalk]) -> Vec<bool> {
+/// For every polygon the rings that visit a node twice or share one with another ring of it, ascending.
+/// Nearly all have none, and need no decomposition.
+fn tangled_rings(graph: &BoundaryGraph, polygons: &[PolygonWalk]) -> Vec<Vec<usize>> {
     let mut last_visit = vec![u32::MAX; graph.nodes.len()];
-    polygons
-        .iter()
-        .enumerate()
-        .map(|(polygon, walk)| {
-            let mut edges = walk.rings.iter().flat_map(|ring| &ring.edges);
-            let visit = polygon as u32;
-            // One edge there and back visits no node twice.
-            let is_ring = |ring: &RingWalk| match ring.edges[..] {
-                [] => false,
-                [there, back] => there.edge() != back.edge(),
-                _ => true,
-            };
-            walk.rings.iter().all(is_ring)
-                && edges.all(|&edge| {
-                    let node = graph.start_node(edge) as usize;
-                    std::mem::replace(&mut last_visit[node], visit) != visit
-                })
-        })
-        .collect()
+    // One edge there and back visits no node twice.
+    let is_ring = |ring: &RingWalk| match ring.edges[..] {
+        [] => false,
+        [there, back] => there.edge() != back.edge(),
+        _ => true,
+    };
+    let tangled_of = |(visit, walk): (u32, &PolygonWalk)| {
+        let mut shared: FxHashSet<u32> = FxHashSet::default();
+        for &edge in walk.rings.iter().flat_map(|ring| &ring.edges) {
+            let node = graph.start_node(edge);
+            if std::mem::replace(&mut last_visit[node as usize], visit) == visit {
+                shared.insert(node);
+            }
+        }
+        let shares = |edge: &DirectedEdge| shared.contains(&graph.start_node(*edge));
+        let is_tangled =
+            |ring: &RingWalk| !is_ring(ring) || !shared.is_empty() && ring.edges.iter().any(shares);
+        let rings = walk.rings.iter().enumerate();
+        rings
+            .filter(|(_, ring)| is_tangled(ring))
+            .map(|(index, _)| index)
+            .collect()
+    };
+    (0..).zip(polygons).map(tangled_of).collect()
 }
 
-fn rings_as_components(walk: &PolygonWalk) -> Vec<Component> {
+/// The other rings, each a component of its own.
+fn rings_as_components(walk: &PolygonWalk, tangled: &[usize]) -> Vec<Component> {
     let component = |(index, ring): (usize, &RingWalk)| Component {
         loops: vec![ring.edges.clone()],
         ring: index,
     };
-    walk.rings.iter().enumerate().map(component).collect()
+    let rings = walk.rings.iter().enumerate();
+    rings
+        .filter(|(index, _)| tangled.binary_search(index).is_err())
+        .map(component)
+        .collect()
+}
+
+/// A polygon in which all other rings are empty, so that these keep their numbers.
+fn only_rings(walk: &PolygonWalk, kept: &[usize]) -> PolygonWalk {
+    let mut rings = vec![RingWalk::default(); walk.rings.len()];
+    for &ring in kept {
+        rings[ring] = walk.rings[ring].clone();
+    }
+    PolygonWalk { rings, ..*walk }
 }
 
 /// Whether a ring whose edges cancel was written round more than half of the lon/lat plane: such is
