@@ -2,6 +2,7 @@
 
 pub(crate) mod arcs;
 pub(crate) mod authalic;
+pub(crate) mod bound_polygons;
 pub(crate) mod boundary_graph;
 pub(crate) mod curved_meeting;
 pub(crate) mod edge_grid;

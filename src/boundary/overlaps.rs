@@ -16,6 +16,7 @@ use crate::{
     boundary::boundary_graph::{BoundaryGraph, DirectedEdge},
     boundary::headings::sort_counter_clockwise,
     boundary::inside::{Boundary, point_on},
+    boundary::lattice::LatticePoint,
     boundary::meridian_index::MeridianIndex,
     ellipsoid::Ellipsoid,
     error::RegionError,
@@ -74,9 +75,8 @@ pub(crate) fn overlaps(
     add_same_side(sides, &mut pairs)?;
     add_common_sectors(ellipsoid, graph, sides, pieces, &mut pairs)?;
     let found = pairs.found.len();
-    pairs
-        .found
-        .extend(contained(ellipsoid, graph, pieces, limits, found)?);
+    let contained = contained(ellipsoid, graph, sides, pieces, limits, found)?;
+    pairs.found.extend(contained);
     limits.check(Quantity::Overlaps, pairs.found.len())?;
     let mut sorted: Vec<Pair> = pairs.found.into_iter().collect();
     sorted.sort_unstable();
@@ -153,6 +153,7 @@ fn add_common_sectors(
 fn contained(
     ellipsoid: &Ellipsoid,
     graph: &BoundaryGraph,
+    sides: &EdgeSides,
     pieces: &[Boundary],
     limits: &Limits,
     found: usize,
@@ -191,7 +192,7 @@ fn contained(
             let loops = boundary.loops.iter().take_while(move |_| !is_full());
             loops.flat_map(move |edges| {
                 let mut void = vec![own];
-                let point = point_on(graph, edges.iter().copied());
+                let point = quiet_point_on(graph, sides, edges);
                 let separating =
                     index.separating(ellipsoid, graph, point, |label| void.push(label));
                 let outside_pole = separating.iter().filter(|&&other| !has_pole(other));
@@ -209,4 +210,19 @@ fn contained(
         .collect();
     limits.check(Quantity::Overlaps, count.into_inner())?;
     Ok(pairs)
+}
+
+/// A node of a loop where, if there is one, no other piece's edges end: many loops may share a node.
+fn quiet_point_on(
+    graph: &BoundaryGraph,
+    sides: &EdgeSides,
+    edges: &[DirectedEdge],
+) -> LatticePoint {
+    let is_quiet = |edge: &&DirectedEdge| sides.degree(graph.start_node(**edge)) == 2;
+    let own = point_on(graph, edges.iter().filter(is_quiet).copied());
+    if own == LatticePoint::default() {
+        point_on(graph, edges.iter().copied())
+    } else {
+        own
+    }
 }

@@ -6,13 +6,13 @@ use rayon::prelude::*;
 use crate::{
     boundary::arcs::{Chain, EdgeSides, chains},
     boundary::authalic::Authalic,
+    boundary::bound_polygons::bound_polygons,
     boundary::boundary_graph::BoundaryGraph,
-    boundary::inside::{Boundary, direct},
+    boundary::inside::Boundary,
     boundary::noding::{PolygonPairs, PolygonWalk, node_boundaries},
     boundary::overlaps::overlaps,
-    boundary::rings::{RingWalk, walk_ring},
-    boundary::simple_loops::{Component, even_odd_components},
-    boundary::zones::{bound_zone, walk_zone},
+    boundary::rings::walk_ring,
+    boundary::zones::walk_zone,
     ellipsoid::Ellipsoid,
     error::RegionError,
     fill_mesh::{Arc, BoundaryVertex, Bounds, Fill, FillMesh, MeshOptions, Piece},
@@ -22,8 +22,8 @@ use crate::{
     mesh::triangulate::{Caps, triangulate},
     mesh::vertex_room::VertexRoom,
     mesh::vertex_runs::VertexRuns,
-    region::{EdgeKind, Polygon, Region},
-    repair::{Place, Repair, RepairKind},
+    region::{Polygon, Region},
+    repair::{Place, Repair},
     zone::Zone,
 };
 
@@ -153,100 +153,6 @@ fn walk_polygons(
         }
     }
     Ok(walks)
-}
-
-/// A polygon's boundary, if it has an inside, and what was repaired.
-type Bounded = (Option<Boundary>, Vec<Repair>);
-
-/// The boundary of every polygon, inside to the left; none for polygons without inside.
-fn bound_polygons(
-    regions: &[Region],
-    ellipsoid: &Ellipsoid,
-    graph: &BoundaryGraph,
-    polygons: &[PolygonWalk],
-    repairs: &mut Vec<Repair>,
-) -> Result<Vec<Option<Boundary>>, RegionError> {
-    let authalic = Authalic::new(*ellipsoid);
-    let is_simple = simple_polygons(graph, polygons);
-    let bounded: Result<Vec<Bounded>, RegionError> = polygons
-        .par_iter()
-        .zip(is_simple)
-        .map(|(walk, is_simple)| {
-            if walk.is_zone {
-                let boundary = bound_zone(ellipsoid, graph, &authalic, walk, is_simple)?;
-                return Ok((Some(boundary), Vec::new()));
-            }
-            let region = &regions[walk.place.region];
-            let mut repairs = Vec::new();
-            let components = if is_simple {
-                rings_as_components(walk)
-            } else {
-                even_odd_components(ellipsoid, graph, walk, &mut repairs)
-            };
-            let shell_is_left = components.iter().any(|component| !component.is_hole());
-            let shell = &region.polygons[walk.place.polygon].shell;
-            let is_globe =
-                !shell_is_left && region.edges == EdgeKind::Straight && spans_globe(shell);
-            let boundary = (shell_is_left || is_globe)
-                .then(|| direct(ellipsoid, graph, &authalic, components, region.inside));
-            for &ring in boundary.iter().flat_map(|boundary| &boundary.idle_holes) {
-                repairs.push(Repair {
-                    place: Place { ring, ..walk.place },
-                    kind: RepairKind::IdleHole,
-                });
-            }
-            Ok((boundary, repairs))
-        })
-        .collect();
-    let bounded = bounded?.into_iter().map(|(boundary, found)| {
-        repairs.extend(found);
-        boundary
-    });
-    Ok(bounded.collect())
-}
-
-/// Which polygons visit no node and walk no edge twice: nearly all, and they need no decomposition.
-fn simple_polygons(graph: &BoundaryGraph, polygons: &[PolygonWalk]) -> Vec<bool> {
-    let mut last_visit = vec![u32::MAX; graph.nodes.len()];
-    polygons
-        .iter()
-        .enumerate()
-        .map(|(polygon, walk)| {
-            let mut edges = walk.rings.iter().flat_map(|ring| &ring.edges);
-            let visit = polygon as u32;
-            // One edge there and back visits no node twice.
-            let is_ring = |ring: &RingWalk| match ring.edges[..] {
-                [] => false,
-                [there, back] => there.edge() != back.edge(),
-                _ => true,
-            };
-            walk.rings.iter().all(is_ring)
-                && edges.all(|&edge| {
-                    let node = graph.start_node(edge) as usize;
-                    std::mem::replace(&mut last_visit[node], visit) != visit
-                })
-        })
-        .collect()
-}
-
-fn rings_as_components(walk: &PolygonWalk) -> Vec<Component> {
-    let component = |(index, ring): (usize, &RingWalk)| Component {
-        loops: vec![ring.edges.clone()],
-        ring: index,
-    };
-    walk.rings.iter().enumerate().map(component).collect()
-}
-
-/// Whether a ring whose edges cancel was written round more than half of the lon/lat plane: such is
-/// the box from −180° to 180° and −90° to 90°, whose sides coincide on the globe.
-fn spans_globe(ring: &[LonLat]) -> bool {
-    let mut area = 0.0;
-    for (index, a) in ring.iter().enumerate() {
-        let b = ring[(index + 1) % ring.len()];
-        let mean_sin = 0.5 * (a.lat_deg.to_radians().sin() + b.lat_deg.to_radians().sin());
-        area += (b.lon_deg - a.lon_deg).to_radians() * mean_sin;
-    }
-    area.abs() > std::f64::consts::TAU
 }
 
 fn crossing_pieces(crossing: PolygonPairs, piece_of_polygon: &[Option<u32>]) -> Vec<(u32, u32)> {
