@@ -42,6 +42,16 @@ pub(crate) struct CapRun {
     /// The first piece.
     pub piece: u32,
     pub triangles: Range<u32>,
+    /// Whether the top caps are drawn, too: not where all surface lies behind them, since only faces
+    /// behind the surface count.
+    pub tops: bool,
+}
+
+impl CapRun {
+    /// Top and bottom caps drawn of the piece, as instances of extrude.wgsl.
+    pub(crate) fn instances(&self) -> Range<u32> {
+        2 * self.piece + u32::from(!self.tops)..2 * self.piece + 2
+    }
 }
 
 /// Contiguous indices of a patch that belong to one arc.
@@ -162,9 +172,11 @@ fn cap_runs(mesh: &FillMesh, codes: &[u32], sight: &Sight) -> Vec<CapRun> {
             continue;
         }
         let triangles = piece.first_triangle..piece.first_triangle + piece.triangle_count;
+        let tops = !sight.tops_hide_surface(&piece.bounds);
         match runs.last_mut() {
             Some(run)
                 if run.triangles.end == triangles.start
+                    && run.tops == tops
                     && codes[run.piece as usize + 1] == codes[index + 1] =>
             {
                 run.triangles.end = triangles.end;
@@ -172,6 +184,7 @@ fn cap_runs(mesh: &FillMesh, codes: &[u32], sight: &Sight) -> Vec<CapRun> {
             _ => runs.push(CapRun {
                 piece: index as u32,
                 triangles,
+                tops,
             }),
         }
     }
@@ -243,189 +256,4 @@ fn patch_runs(mesh: &FillMesh, codes: &[u32], arc_seen: &[bool], patch: &Patch) 
 }
 
 #[cfg(all(test, feature = "countries"))]
-mod tests {
-    use std::collections::HashMap;
-
-    use glam::{DMat3, DMat4, DVec3, DVec4, UVec2};
-
-    use super::*;
-    use crate::{
-        CountTechnique, Ellipsoid, FillStyle, LonLat, MeshOptions,
-        countries::Dataset,
-        frame::{
-            code::Mantissa,
-            layers::{Layering, Styled},
-            refine::{BOTTOM, TOP},
-        },
-        options::{Camera, Frame, HeightRange, RendererOptions},
-    };
-
-    fn mesh() -> FillMesh {
-        let countries = Dataset::Countries110m.countries();
-        let regions: Vec<_> = countries
-            .into_iter()
-            .map(|country| country.region)
-            .collect();
-        FillMesh::build(&regions, &MeshOptions::default()).expect("embedded data is sound")
-    }
-
-    fn looking_down(at: LonLat, height_m: f64, field_of_view_deg: f64, sag_m: f64) -> Sight {
-        let ellipsoid = Ellipsoid::WGS84;
-        let up = ellipsoid.normal(at);
-        let right = up.any_orthonormal_vector();
-        let scale = 1.0 / (0.5 * field_of_view_deg).to_radians().tan();
-        let clip_from_view = DMat4::from_cols(
-            DVec4::new(scale, 0.0, 0.0, 0.0),
-            DVec4::new(0.0, scale, 0.0, 0.0),
-            DVec4::new(0.0, 0.0, 0.0, -1.0),
-            DVec4::new(0.0, 0.0, 0.1 * height_m, 0.0),
-        );
-        let camera = Camera {
-            eye_ecef_m: ellipsoid.ecef(at, height_m),
-            view_from_ecef: DMat3::from_cols(right, up.cross(right), up).transpose(),
-            clip_from_view,
-        };
-        let frame = Frame {
-            terrain: HeightRange {
-                min_m: -500.0,
-                max_m: 9_000.0,
-            },
-            pixel_error: 0.0,
-            ..Frame::new(camera, UVec2::splat(720))
-        };
-        Sight::new(ellipsoid, sag_m, &frame, &RendererOptions::default()).expect("valid")
-    }
-
-    /// A corner of a drawn triangle: its surface point, bit for bit, and how it is drawn.
-    type Corner = ([u64; 3], u32);
-
-    fn corner(point_m: DVec3, drawn: u32) -> Corner {
-        (point_m.to_array().map(f64::to_bits), drawn)
-    }
-
-    #[derive(Default)]
-    struct Boundary(HashMap<(Corner, Corner), i64>);
-
-    impl Boundary {
-        fn add(&mut self, triangle: [Corner; 3], weight: i64) {
-            for side in 0..3 {
-                let (from, to) = (triangle[side], triangle[(side + 1) % 3]);
-                if from < to {
-                    *self.0.entry((from, to)).or_default() += weight;
-                } else {
-                    *self.0.entry((to, from)).or_default() -= weight;
-                }
-            }
-        }
-    }
-
-    /// The signed boundary of what a layer draws. A patch has the boundary of the wall it replaces
-    /// (tested in refine.rs), so that wall stands for it.
-    fn boundary(mesh: &FillMesh, draws: &LayerDraws, patch: &Patch) -> Boundary {
-        let mut boundary = Boundary::default();
-        for run in &draws.caps {
-            let weight = i64::from(draws.codes[run.piece as usize + 1]);
-            for triangle in run.triangles.clone() {
-                let corners = mesh.cap_triangles[triangle as usize]
-                    .map(|vertex| mesh.vertices[vertex as usize]);
-                boundary.add(corners.map(|point_m| corner(point_m, TOP)), weight);
-                boundary.add(corners.map(|point_m| corner(point_m, BOTTOM)), -weight);
-            }
-        }
-        let mut wall = |arc: &crate::fill_mesh::Arc, vertex: u32| {
-            let weight = i64::from(code_of(&draws.codes, arc.left))
-                - i64::from(code_of(&draws.codes, arc.right));
-            let [a, b] = [vertex, vertex + 1].map(|vertex| mesh.vertices[vertex as usize]);
-            let (a, b) = (
-                (corner(a, TOP), corner(a, BOTTOM)),
-                (corner(b, TOP), corner(b, BOTTOM)),
-            );
-            boundary.add([a.0, a.1, b.0], weight);
-            boundary.add([a.1, b.1, b.0], weight);
-        };
-        for (index, arc) in (0..).zip(&mesh.arcs) {
-            let ends = arc.first_vertex..arc.first_vertex + arc.vertex_count - 1;
-            for vertex in ends {
-                let slots = slot(index, vertex)..slot(index, vertex + 1) + 1;
-                // A wall drawn twice would count twice.
-                for run in &draws.walls {
-                    if run.start <= slots.start && slots.end <= run.end {
-                        wall(arc, vertex);
-                    }
-                }
-            }
-        }
-        for chord in &patch.chords {
-            if draws
-                .patches
-                .iter()
-                .any(|run| run.indices.contains(&chord.first_index))
-            {
-                wall(&mesh.arcs[chord.arc as usize], chord.vertex);
-            }
-        }
-        boundary
-    }
-
-    /// The law: after culling, layering and refinement the signed boundary of everything drawn is
-    /// zero, but for edges outside a side plane of the frustum, which no pixel sees.
-    #[test]
-    fn what_is_drawn_is_closed() {
-        let mesh = mesh();
-        let mut styles = vec![FillStyle::default(); mesh.fills.len()];
-        for style in styles.iter_mut().step_by(5) {
-            style.visible = false;
-        }
-        let styled = [Styled {
-            mesh: &mesh,
-            styles: &styles,
-        }];
-        let layering =
-            Layering::assign(&styled, CountTechnique::Winding, Mantissa::Single).expect("fits");
-        let (mut culled, mut refined) = (0, 0);
-        for (at, height_m, field_of_view_deg) in [
-            (LonLat::new(10.0, 50.0), 2e7, 60.0),
-            (LonLat::new(179.9, 66.0), 3e6, 60.0),
-            (LonLat::new(0.0, -90.0), 1e6, 100.0),
-            (LonLat::new(13.0, 48.5), 5e4, 60.0),
-            (LonLat::new(6.8, 49.2), 9_010.0, 60.0),
-        ] {
-            let sight = looking_down(at, height_m, field_of_view_deg, mesh.sag_m);
-            let layers = layering.layers.len();
-            let selection = Selection::of(
-                &mesh,
-                &layering.codes[0],
-                layers,
-                &sight,
-                &EdgeWants::default(),
-            );
-            culled += selection.fills_culled;
-            refined += selection.patch.chords.len();
-            for draws in &selection.layers {
-                let open = boundary(&mesh, draws, &selection.patch).0;
-                for ((from, to), sum) in open {
-                    let ends = [from, to].map(|(bits, drawn)| {
-                        let point_m = DVec3::from_array(bits.map(f64::from_bits));
-                        let distance_m = point_m.distance(sight.eye_ecef_m);
-                        let height_m = if drawn == TOP {
-                            sight.extrusion.top_at_m(distance_m)
-                        } else {
-                            sight.extrusion.bottom_at_m(distance_m)
-                        };
-                        let normal = sight.ellipsoid.normal_at_surface(point_m);
-                        point_m + normal * height_m - sight.eye_ecef_m
-                    });
-                    let unseen = sight
-                        .side_planes
-                        .iter()
-                        .any(|plane| ends.iter().all(|end| plane.dot(end.extend(1.0)) < 0.0));
-                    assert!(sum == 0 || unseen, "{sum} from {height_m} m over {at:?}");
-                }
-            }
-        }
-        assert!(
-            culled > 0 && refined > 0,
-            "{culled} culled, {refined} refined"
-        );
-    }
-}
+mod tests;

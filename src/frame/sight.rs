@@ -180,6 +180,26 @@ impl Sight {
         apart_rad > horizon_rad + leaning_rad + 1e-6
     }
 
+    /// Whether every line of sight through a top cap over `bounds` has no surface before it.
+    ///
+    /// Along a line heights are convex. Where it descends through a cap, which is no lower than any
+    /// surface, all before was higher. With foot point p and eye e in coordinates divided by the radii, a
+    /// line to height h above p descends there if e · p ≥ 1 + h / b, b being the shortest radius.
+    pub(crate) fn tops_hide_surface(&self, bounds: &Bounds) -> bool {
+        let radii_m = self.ellipsoid.radii_m();
+        let farthest_m = self.eye_ecef_m.length() + self.ellipsoid.a_m;
+        let highest = 1.0 + self.extrusion.top_at_m(farthest_m) / radii_m.min_element();
+        let (eye, least) = if self.parallel {
+            let axis = self.clip_from_relative.transpose().z_axis.xyz();
+            ((-axis / radii_m).normalize(), 0.0)
+        } else {
+            (self.eye_ecef_m / radii_m, highest)
+        };
+        let farthest_rad = eye.angle_between(bounds.axis) + bounds.radius_rad;
+        farthest_rad < std::f64::consts::FRAC_PI_2
+            && eye.length() * farthest_rad.cos() > least + 1e-9
+    }
+
     /// In coordinates divided by the radii: where the eye is, and the angle from there about the centre to
     /// the horizon of a sphere. None if it is inside. Parallel lines come from infinitely far away, unless
     /// the near plane cuts the sphere.

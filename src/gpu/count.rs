@@ -152,7 +152,7 @@ impl Recorder<'_> {
         }
     }
 
-    /// Caps twice, raised and pushed down.
+    /// Caps, raised where that can matter and pushed down.
     fn draw_caps(
         &self,
         pass: &mut wgpu::RenderPass<'_>,
@@ -167,7 +167,7 @@ impl Recorder<'_> {
         pass.set_index_buffer(drawn.gpu.cap_indices.slice(..), wgpu::IndexFormat::Uint32);
         for run in &draws.caps {
             let indices = 3 * run.triangles.start..3 * run.triangles.end;
-            pass.draw_indexed(indices, 0, 2 * run.piece..2 * run.piece + 2);
+            pass.draw_indexed(indices, 0, run.instances());
         }
     }
 

@@ -22,9 +22,8 @@ pub(crate) fn cost(view: &MeshView) -> Cost {
     if view.volumes.is_empty() {
         for draws in &view.selection.layers {
             for run in &draws.caps {
-                // One draw of two instances.
                 cost.draws += 1;
-                cost.vertices += 6 * run.triangles.len() as u64;
+                cost.vertices += (3 * run.triangles.len() * run.instances().len()) as u64;
             }
             draws
                 .walls
