@@ -64,6 +64,10 @@ pub struct FillMesh {
     pub sag_m: f64,
     /// What was repaired in the input.
     pub repairs: Vec<Repair>,
+    /// Levels of detail for eyes far away, each coarser than the one before: the same fills, pieces and
+    /// arcs, index for index, with fewer vertices. Of their boundary vertices only `deviation_m` means
+    /// something; they have no curves, overlaps or repairs of their own.
+    pub coarser: Vec<FillMesh>,
 }
 
 /// Where a boundary vertex lies on the true edge that starts or passes there.

@@ -1,6 +1,7 @@
 //! What one view draws in one frame, decided in f64 without the GPU.
 
 pub(crate) mod code;
+pub(crate) mod detail;
 pub(crate) mod edge_draws;
 pub(crate) mod edge_segments;
 pub(crate) mod edge_uniform;

@@ -26,6 +26,8 @@ pub struct FrameStats {
     pub draws: u32,
     /// Vertices submitted to the vertex stage (before any vertex cache).
     pub vertices: u64,
+    /// The coarsest level of detail drawn of any mesh; 0 is the finest.
+    pub level: u32,
     /// Boundary chords replaced by finer ones for this view.
     pub refined_chords: u32,
     /// Visible sensors.

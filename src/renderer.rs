@@ -14,6 +14,7 @@ use crate::{
     error::RendererError,
     fill_mesh::FillMesh,
     frame::code::Mantissa,
+    frame::detail::Coarseness,
     frame::placed::PatternPlace,
     frame_stats::FrameStats,
     gpu::count::{Drawn, Recorder},
@@ -70,6 +71,54 @@ struct Resident {
     /// Where the patterns of the styles lie.
     places: Vec<Option<PatternPlace>>,
     gpu: GpuMesh,
+    coarser: Vec<CoarserLevel>,
+}
+
+/// A level of detail behind the first.
+struct CoarserLevel {
+    coarseness: Coarseness,
+    /// Made when a frame first needs it.
+    gpu: OnceLock<GpuMesh>,
+}
+
+impl Resident {
+    fn new(device: &wgpu::Device, mesh: FillMesh) -> Self {
+        let level = |level| CoarserLevel {
+            coarseness: Coarseness::of(level),
+            gpu: OnceLock::new(),
+        };
+        Self {
+            gpu: GpuMesh::new(device, &mesh),
+            coarser: mesh.coarser.iter().map(level).collect(),
+            styles: vec![FillStyle::default(); mesh.fills.len()],
+            places: vec![None; mesh.fills.len()],
+            mesh,
+        }
+    }
+
+    /// The mesh of a level, 0 being the finest.
+    fn level(&self, level: usize) -> &FillMesh {
+        match level.checked_sub(1) {
+            Some(coarser) => &self.mesh.coarser[coarser],
+            None => &self.mesh,
+        }
+    }
+
+    /// The upload of a level.
+    fn gpu(&self, device: &wgpu::Device, level: usize) -> &GpuMesh {
+        let Some(coarser) = level.checked_sub(1) else {
+            return &self.gpu;
+        };
+        let gpu = &self.coarser[coarser].gpu;
+        gpu.get_or_init(|| GpuMesh::new(device, &self.mesh.coarser[coarser]))
+    }
+
+    /// Bytes of all levels that were uploaded.
+    fn gpu_bytes(&self) -> u64 {
+        let coarser = self.coarser.iter().zip(&self.mesh.coarser);
+        let uploaded = coarser.filter(|(level, _)| level.gpu.get().is_some());
+        self.mesh.gpu_bytes() + uploaded.map(|(_, mesh)| mesh.gpu_bytes()).sum::<u64>()
+    }
 }
 
 impl Renderer {
@@ -136,13 +185,7 @@ impl Renderer {
     pub fn insert(&mut self, mesh: FillMesh) -> MeshId {
         let id = MeshId(self.next_id);
         self.next_id += 1;
-        let resident = Resident {
-            gpu: GpuMesh::new(&self.device, &mesh),
-            styles: vec![FillStyle::default(); mesh.fills.len()],
-            places: vec![None; mesh.fills.len()],
-            mesh,
-        };
-        self.meshes.insert(id, resident);
+        self.meshes.insert(id, Resident::new(&self.device, mesh));
         self.changed();
         id
     }
@@ -245,8 +288,9 @@ impl Renderer {
     /// The meshes as a view draws them.
     fn drawn<'a>(&'a self, views: &'a HashMap<MeshId, MeshView>) -> Vec<Drawn<'a>> {
         let drawn = self.meshes.iter().filter_map(|(&id, resident)| {
-            let gpu = &resident.gpu;
-            views.get(&id).map(|view| Drawn { id, gpu, view })
+            let view = views.get(&id)?;
+            let gpu = resident.gpu(&self.device, view.level);
+            Some(Drawn { id, gpu, view })
         });
         drawn.collect()
     }

@@ -48,6 +48,8 @@ pub(crate) struct Prepared {
 
 /// What one view draws of one mesh.
 pub(crate) struct MeshView {
+    /// The level of detail that is drawn.
+    pub level: usize,
     pub selection: Selection,
     /// By layer; empty unless counted by stencil.
     pub volumes: Vec<Vec<Volume>>,
@@ -85,6 +87,7 @@ impl MeshView {
             }],
         });
         Self {
+            level: 0,
             selection: Selection::default(),
             volumes: Vec::new(),
             uniform,
@@ -104,8 +107,15 @@ impl MeshView {
     }
 
     /// Uploads what changed; returns the bytes.
-    pub(crate) fn upload(&mut self, to: &Upload<'_>, sight: &Sight, selection: Selection) -> u64 {
+    pub(crate) fn upload(
+        &mut self,
+        to: &Upload<'_>,
+        level: usize,
+        sight: &Sight,
+        selection: Selection,
+    ) -> u64 {
         let (device, queue) = (to.device, to.queue);
+        let other_level = std::mem::replace(&mut self.level, level) != level;
         let mut bytes = 0;
         let uniform = FrameUniform::new(sight);
         // The uniform never grows, so its bind group stays.
@@ -129,7 +139,7 @@ impl MeshView {
             if let Some(layer) = self.layers.get_mut(index) {
                 let (uploaded, moved) = layer.codes.write(device, queue, codes);
                 bytes += uploaded;
-                if moved || patch_moved {
+                if moved || patch_moved || other_level {
                     layer.rebind(to, patch_vertices);
                 }
             } else {

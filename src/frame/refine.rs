@@ -253,6 +253,16 @@ impl Limits {
     }
 }
 
+/// Whether chords of at most this length and deviation, seen from `distance_m` or farther, do as they are.
+pub(crate) fn needs_no_refinement(
+    sight: &Sight,
+    distance_m: f64,
+    length_m: f64,
+    deviation_m: f64,
+) -> bool {
+    !Limits::at(sight, distance_m).exceeded_by(length_m, deviation_m)
+}
+
 /// Points on the true edge, from the chord's first to its last, fine enough for `sight`.
 fn true_edge_points(mesh: &FillMesh, vertex: u32, sight: &Sight) -> Vec<DVec3> {
     let vertex = vertex as usize;

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::{
-    fill_mesh::FillMesh,
+    fill_mesh::{FillMesh, Piece},
     frame::code::PlaneSums,
     frame::edge_draws::{ArcEdges, EdgeDraws, EdgeWants},
     frame::edge_segments::EdgeSegments,
@@ -75,11 +75,17 @@ impl Selection {
         sight: &Sight,
         wants: &EdgeWants<'_>,
     ) -> Self {
+        let least_cos_squared = sight.least_cos_squared();
+        // Strokes show pieces that are too small to be seen themselves.
+        let is_missed = |piece: &Piece| {
+            !wants.slots.is_empty() || !sight.is_within_budget(&piece.bounds, least_cos_squared)
+        };
+        let is_shown = |piece: &Piece| !sight.beyond_horizon(&piece.bounds) && is_missed(piece);
         let shown: Vec<Option<PieceCode>> = mesh
             .pieces
             .iter()
             .zip(codes)
-            .map(|(piece, code)| code.filter(|_| !sight.beyond_horizon(&piece.bounds)))
+            .map(|(piece, code)| code.filter(|_| is_shown(piece)))
             .collect();
         let mut selection = Self::default();
         selection.count_fills(mesh, codes, &shown);

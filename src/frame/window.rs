@@ -36,6 +36,11 @@ impl Window {
         }
     }
 
+    /// Its least and its greatest corner; without area, the first is not less than the second.
+    pub(crate) fn corners(self) -> [DVec2; 2] {
+        [self.min, self.max]
+    }
+
     /// The smallest rectangle that holds both.
     pub(crate) fn joined(self, other: Self) -> Self {
         Self {

@@ -12,7 +12,7 @@ use crate::{
 };
 
 /// Longest chord, in equatorial radii: 2° of arc, which sags 970 m on Earth.
-const MAX_CHORD: f64 = 2.0 / 180.0 * std::f64::consts::PI;
+pub(crate) const MAX_CHORD: f64 = 2.0 / 180.0 * std::f64::consts::PI;
 /// Tighter tolerances are not met: they would only fill the memory.
 const MIN_TOLERANCE_M: f64 = 1e-3;
 /// A curve is halved at most this often: then its pieces are metres long whatever the tolerance.

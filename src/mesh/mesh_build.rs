@@ -1,5 +1,7 @@
 //! The CPU pipeline: regions → rings → nodes → loops → arcs → vertices → triangles.
 
+use std::f64::consts::PI;
+
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -17,9 +19,9 @@ use crate::{
     error::RegionError,
     fill_mesh::{Arc, BoundaryVertex, Bounds, Fill, FillMesh, MeshOptions, Piece},
     geodetic::LonLat,
-    limits::{Excess, Limits, Quantity},
+    limits::{Excess, Quantity},
     mesh::densify::{DenseChain, densify},
-    mesh::triangulate::{Caps, triangulate},
+    mesh::levels::coarser,
     mesh::vertex_room::VertexRoom,
     mesh::vertex_runs::VertexRuns,
     region::{Polygon, Region},
@@ -65,17 +67,33 @@ pub(crate) fn build(regions: &[Region], options: &MeshOptions) -> Result<FillMes
     let pieces: Vec<Boundary> = boundaries.into_iter().flatten().collect();
     let sides = EdgeSides::new(&graph, &pieces);
     let crossing = crossing_pieces(crossing, &piece_of_polygon);
-    let (overlaps, added) = rayon::join(
+    let (overlaps, added): (_, Result<(), Excess>) = rayon::join(
         || overlaps(&ellipsoid, &graph, &sides, &pieces, crossing, limits),
         || {
             let chains = chains(&graph, &sides, &pieces);
             let vertex_runs = mesh.add_arcs(&graph, &chains, options)?;
-            mesh.add_caps(&graph, &pieces, &vertex_runs, limits)
+            let loops_of = |piece: usize| -> Vec<Vec<u32>> {
+                let loops = pieces[piece].loops.iter();
+                loops
+                    .map(|edges| vertex_runs.loop_vertices(&graph, edges))
+                    .collect()
+            };
+            let inside_sr = inside_sr(&ellipsoid, &pieces);
+            mesh.add_caps(loops_of, &inside_sr, limits)?;
+            mesh.coarser = coarser(&mesh, &inside_sr, options.tolerance_m, limits)?;
+            Ok(())
         },
     );
     mesh.overlaps = overlaps?;
     added?;
     Ok(mesh)
+}
+
+/// The area inside each piece's loops, on the unit sphere.
+fn inside_sr(ellipsoid: &Ellipsoid, pieces: &[Boundary]) -> Vec<f64> {
+    let authalic = Authalic::new(*ellipsoid);
+    let of_piece = |piece: &Boundary| 4.0 * PI * authalic.left_share(piece.enclosed);
+    pieces.iter().map(of_piece).collect()
 }
 
 fn count_vertices(regions: &[Region]) -> usize {
@@ -277,16 +295,6 @@ impl FillMesh {
             }));
     }
 
-    fn bound_arcs(&mut self) {
-        let (ellipsoid, vertices, boundary) = (self.ellipsoid, &self.vertices, &self.boundary);
-        self.arcs.par_iter_mut().for_each(|arc| {
-            let run = arc.first_vertex as usize..(arc.first_vertex + arc.vertex_count) as usize;
-            let margin_m =
-                edge_margin_m(&ellipsoid, &vertices[run.clone()], &boundary[run.clone()]);
-            arc.bounds = Bounds::around(&ellipsoid, vertices[run].iter().copied(), margin_m);
-        });
-    }
-
     /// A chain's vertices from the arcs that run along the same edges already: bit for bit the same
     /// positions, in this chain's order.
     fn copy_of(&self, graph: &BoundaryGraph, chain: &Chain, runs: &VertexRuns) -> DenseChain {
@@ -333,96 +341,4 @@ impl FillMesh {
         }
         copy
     }
-
-    /// Adds the triangles of every piece and its interior vertices.
-    fn add_caps(
-        &mut self,
-        graph: &BoundaryGraph,
-        pieces: &[Boundary],
-        runs: &VertexRuns,
-        limits: &Limits,
-    ) -> Result<(), Excess> {
-        let ellipsoid = self.ellipsoid;
-        let authalic = Authalic::new(ellipsoid);
-        let boundary_vertices = &self.vertices[..];
-        let margin_m = self.arcs_margin_m();
-        let room = VertexRoom::new(*limits);
-        room.take(self.vertices.len());
-        let caps: Vec<(Caps, Bounds)> = pieces
-            .par_iter()
-            .map(|piece| {
-                if room.is_full() {
-                    return Default::default();
-                }
-                let loops: Vec<Vec<u32>> = piece
-                    .loops
-                    .iter()
-                    .map(|edges| runs.loop_vertices(graph, edges))
-                    .collect();
-                let inside_sr = authalic.left_share(piece.enclosed) * 4.0 * std::f64::consts::PI;
-                let caps = triangulate(ellipsoid, boundary_vertices, &loops, inside_sr);
-                room.take(caps.interior.len());
-                let bounds = if loops.is_empty() {
-                    Bounds::globe()
-                } else {
-                    let rim = loops
-                        .iter()
-                        .flatten()
-                        .map(|&vertex| boundary_vertices[vertex as usize]);
-                    let all = rim.chain(caps.interior.iter().copied());
-                    Bounds::around(&ellipsoid, all, margin_m)
-                };
-                (caps, bounds)
-            })
-            .collect();
-        room.check()?;
-        let boundary_count = self.vertices.len() as u32;
-        for (piece, (caps, bounds)) in self.pieces.iter_mut().zip(caps) {
-            piece.bounds = bounds;
-            piece.first_triangle = self.cap_triangles.len() as u32;
-            piece.triangle_count = caps.triangles.len() as u32;
-            self.sag_m = self.sag_m.max(caps.sag_m);
-            let shift = self.vertices.len() as u32 - boundary_count;
-            let place = |vertex: u32| {
-                if vertex < boundary_count {
-                    vertex
-                } else {
-                    vertex + shift
-                }
-            };
-            self.cap_triangles
-                .extend(caps.triangles.iter().map(|corners| corners.map(place)));
-            self.vertices.extend(caps.interior);
-        }
-        Ok(())
-    }
-
-    /// [`edge_margin_m`] of all arcs together.
-    fn arcs_margin_m(&self) -> f64 {
-        let deviation_m = self
-            .boundary
-            .iter()
-            .map(|vertex| vertex.deviation_m)
-            .fold(0.0, f32::max);
-        f64::from(deviation_m) + skew_m(&self.ellipsoid, self.sag_m)
-    }
-}
-
-/// How far true edges may lie beside the great arcs of the scaled sphere between their vertices.
-fn edge_margin_m(ellipsoid: &Ellipsoid, vertices: &[DVec3], boundary: &[BoundaryVertex]) -> f64 {
-    let deviation_m = boundary
-        .iter()
-        .map(|vertex| vertex.deviation_m)
-        .fold(0.0, f32::max);
-    let chord_m = vertices
-        .windows(2)
-        .map(|pair| pair[0].distance(pair[1]))
-        .fold(0.0, f64::max);
-    f64::from(deviation_m) + skew_m(ellipsoid, ellipsoid.chord_sag_m(chord_m))
-}
-
-/// How far a wall along geodetic normals and one through the centre part, over the height `sag_m`
-/// from the chord to the surface: their directions differ by the flattening at most, taken twice.
-fn skew_m(ellipsoid: &Ellipsoid, sag_m: f64) -> f64 {
-    2.0 * ellipsoid.flattening().abs() * sag_m
 }

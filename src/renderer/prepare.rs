@@ -1,6 +1,6 @@
 //! Preparing a frame: layers, selection, targets, pipelines, upload.
 
-use super::{MeshId, Renderer};
+use super::{MeshId, Renderer, Resident};
 use crate::{
     error::RendererError,
     frame::code::PlaneSums,
@@ -152,20 +152,50 @@ impl Renderer {
             .zip(&layering.codes)
             .map(|((&id, resident), codes)| {
                 let mesh = &resident.mesh;
-                let sight = Sight::new(mesh.ellipsoid, mesh.sag_m, frame, &self.options)?;
+                let finest = Sight::new(mesh.ellipsoid, mesh.sag_m, frame, &self.options)?;
                 let edged = tables.edges.iter().any(Option::is_some);
+                // Boundaries are measured from the true edges, which only the finest level knows.
+                let (level, sight) = if edged {
+                    (0, finest)
+                } else {
+                    self.level_for(resident, frame, finest)?
+                };
                 let slots = edged.then(|| resident.gpu.edge_slots(&self.device, mesh));
                 let wants = EdgeWants {
                     layers: &tables.edges,
                     slots: slots.map_or(&[], |slots| slots.slots.as_slice()),
                 };
+                let mesh = resident.level(level);
                 Ok(Selected {
                     id,
+                    level,
                     selection: Selection::of(mesh, codes, layer_count, &sight, &wants),
                     sight,
                 })
             })
             .collect()
+    }
+
+    /// The coarsest level that is within the frame's budget wherever it is seen, and the sight for it.
+    fn level_for(
+        &self,
+        resident: &Resident,
+        frame: &Frame,
+        finest: Sight,
+    ) -> Result<(usize, Sight), RendererError> {
+        if resident.coarser.is_empty() {
+            return Ok((0, finest));
+        }
+        let mesh = &resident.mesh;
+        let distance_m = finest.distance_to_detail_m(mesh);
+        for (index, level) in resident.coarser.iter().enumerate().rev() {
+            let sag_m = mesh.coarser[index].sag_m;
+            let sight = Sight::new(mesh.ellipsoid, sag_m, frame, &self.options)?;
+            if level.coarseness.suffices(&sight, distance_m) {
+                return Ok((index + 1, sight));
+            }
+        }
+        Ok((0, finest))
     }
 
     fn ensure_targets(
@@ -243,8 +273,9 @@ impl Renderer {
                     device: &self.device,
                     queue,
                     pipelines: &self.pipelines,
-                    mesh: &resident.gpu,
+                    mesh: resident.gpu(&self.device, selected.level),
                 },
+                selected.level,
                 &selected.sight,
                 selected.selection,
             );
@@ -259,7 +290,7 @@ impl Renderer {
         stats.technique = prepared.technique;
         for (id, resident) in &self.meshes {
             stats.fills += resident.mesh.fills.len() as u32;
-            stats.gpu_bytes += resident.mesh.gpu_bytes();
+            stats.gpu_bytes += resident.gpu_bytes();
             let Some(mesh_view) = view.meshes.get_mut(id) else {
                 continue;
             };
@@ -269,10 +300,11 @@ impl Renderer {
                     .selection
                     .layers
                     .iter()
-                    .map(|draws| volumes(&resident.mesh, draws))
+                    .map(|draws| volumes(resident.level(mesh_view.level), draws))
                     .collect(),
             };
             let cost = cost(mesh_view);
+            stats.level = stats.level.max(mesh_view.level as u32);
             stats.drawn += mesh_view.selection.fills_drawn;
             stats.culled += mesh_view.selection.fills_culled;
             stats.refined_chords += mesh_view.selection.patch.chords.len() as u32;
@@ -334,6 +366,7 @@ pub(super) enum Choice {
 /// What a frame shows of one mesh.
 pub(super) struct Selected {
     pub(super) id: MeshId,
+    pub(super) level: usize,
     pub(super) sight: Sight,
     pub(super) selection: Selection,
 }

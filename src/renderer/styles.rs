@@ -344,6 +344,7 @@ fn window(
         id,
         sight,
         selection,
+        ..
     } in selections
     {
         let pieces = &meshes[id].mesh.pieces;

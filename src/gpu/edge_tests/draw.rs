@@ -153,7 +153,7 @@ pub fn draw(
         pipelines: &pipelines,
         mesh: &uploaded,
     };
-    view.upload(&to, &sight, selection);
+    view.upload(&to, 0, &sight, selection);
     let mut encoder = device.create_command_encoder(&Default::default());
     let drawn = [Drawn {
         id: MeshId(0),
