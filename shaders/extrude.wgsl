@@ -35,17 +35,15 @@ struct Arc {
     // Pieces on either side, plus one; 0 for none.
     left: u32,
     right: u32,
-    // The slot behind its last vertex: the break.
-    break_slot: u32,
 }
 
-// Boundary slots that share an entry of `arc_at`.
-const BLOCK: u32 = 16u;
+// Set in `arc_at` where a slot is the break behind its arc.
+const BREAK: u32 = 0x80000000u;
 
 @group(0) @binding(0) var<uniform> frame: Frame;
 // Fixed point: xyz in 1/128 m, w three 10-bit fractions of 2^-17 m (x lowest).
 @group(1) @binding(0) var<storage, read> vertices: array<vec4<i32>>;
-// The arc of the first slot of every block of boundary slots.
+// The arc of every boundary slot.
 @group(1) @binding(1) var<storage, read> arc_at: array<u32>;
 @group(1) @binding(2) var<storage, read> arcs: array<Arc>;
 // Winding code of each piece, plus one, in this view and layer; four digits of 8 bits.
@@ -97,15 +95,6 @@ fn arc_weight(arc: u32) -> vec4<f32> {
     return code_digits(arcs[arc].left) - code_digits(arcs[arc].right);
 }
 
-// The arc whose slots, or break, hold `slot`.
-fn arc_of(slot: u32) -> u32 {
-    var arc = arc_at[slot / BLOCK];
-    while arcs[arc].break_slot < slot {
-        arc += 1u;
-    }
-    return arc;
-}
-
 // Cap-only inputs. instance = 2 * piece + (1 for the bottom cap).
 @vertex
 fn vs_cap(@builtin(vertex_index) vertex: u32, @builtin(instance_index) instance: u32) -> Face {
@@ -126,8 +115,9 @@ struct WallCorner {
 fn wall_corner(k: u32) -> WallCorner {
     let slot = k >> 1u;
     let top = (k & 1u) == 0u;
-    let arc = arc_of(slot);
-    if slot != arcs[arc].break_slot {
+    let entry = arc_at[slot];
+    let arc = entry & ~BREAK;
+    if entry == arc {
         return WallCorner(arc, slot, select(BOTTOM, TOP, top));
     }
     if top {

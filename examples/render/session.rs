@@ -243,6 +243,7 @@ impl Work<'_> {
             "gpu_bytes": first.gpu_bytes,
             "draws": first.draws,
             "vertices": first.vertices,
+            "level": first.level,
             "refined_chords": first.refined_chords,
             "layers": first.layers,
             "steady_upload_bytes": times.stats.upload_bytes,

@@ -3,23 +3,23 @@
 use std::sync::OnceLock;
 
 use crate::{
-    fill_mesh::FillMesh,
+    fill_mesh::{Arc, FillMesh},
     frame::edge_draws::{EdgeSlot, edge_slots},
     frame::select::slot,
     gpu::filled_buffer::FilledBuffer as _,
     gpu::fixed_point::encode,
 };
 
-/// Boundary slots that share an entry of `arc_at`; the same in extrude.wgsl.
-const BLOCK: usize = 16;
+/// Set in `arc_at` where a slot is the break behind its arc; the same in extrude.wgsl.
+const BREAK: u32 = 1 << 31;
 
 /// Buffers of one mesh.
 pub(crate) struct GpuMesh {
     /// Boundary slots, arc after arc with a break behind each, then the caps' interior vertices.
     pub vertices: wgpu::Buffer,
-    /// The arc of the first slot of every block of boundary slots.
+    /// The arc of every boundary slot.
     pub arc_at: wgpu::Buffer,
-    /// Sides and break of each arc.
+    /// Sides of each arc.
     pub arcs: wgpu::Buffer,
     /// Vertex indices of the cap triangles.
     pub cap_indices: wgpu::Buffer,
@@ -51,8 +51,8 @@ impl GpuMesh {
         };
         let vertices = vertices_in_slots(mesh);
         let arcs = arc_records(mesh);
-        let arc_at = arc_at_blocks(&arcs);
-        let caps = cap_indices(mesh, &arcs, &arc_at);
+        let arc_at = arc_at_slots(mesh);
+        let caps = cap_indices(mesh);
         Self {
             vertices: buffer(
                 "globefill vertices",
@@ -60,7 +60,7 @@ impl GpuMesh {
                 storage,
             ),
             arc_at: buffer(
-                "globefill arc at block",
+                "globefill arc at slot",
                 bytemuck::cast_slice(&arc_at),
                 storage,
             ),
@@ -99,14 +99,13 @@ impl GpuMesh {
 }
 
 impl FillMesh {
-    /// Bytes that the mesh takes on the GPU: 16 a vertex, 12 a cap triangle, 28 an arc for its sides
-    /// and the break behind it, and 4 for every sixteen boundary vertices. Walls take none.
+    /// Bytes that the mesh takes on the GPU, this level of detail alone: 16 a vertex, 4 more a boundary
+    /// vertex, 12 a cap triangle, 28 an arc for its sides and the break behind it. Walls take none.
     pub fn gpu_bytes(&self) -> u64 {
         let slots = self.boundary.len() + self.arcs.len();
         let vertices = self.vertices.len() + self.arcs.len();
-        let blocks = slots.div_ceil(BLOCK);
         let arcs = size_of::<ArcRecord>() * self.arcs.len();
-        (16 * vertices + arcs + 4 * blocks + 12 * self.cap_triangles.len()) as u64
+        (16 * vertices + arcs + 4 * slots + 12 * self.cap_triangles.len()) as u64
     }
 }
 
@@ -116,7 +115,6 @@ impl FillMesh {
 pub(crate) struct ArcRecord {
     pub left: u32,
     pub right: u32,
-    pub break_slot: u32,
 }
 
 /// The mesh's vertices with a break behind each arc, so that one strip may run over many arcs.
@@ -135,44 +133,32 @@ fn vertices_in_slots(mesh: &FillMesh) -> Vec<[i32; 4]> {
 
 fn arc_records(mesh: &FillMesh) -> Vec<ArcRecord> {
     let plus_one = |piece: Option<u32>| piece.map_or(0, |piece| piece + 1);
-    (0..)
-        .zip(&mesh.arcs)
-        .map(|(index, arc)| ArcRecord {
-            left: plus_one(arc.left),
-            right: plus_one(arc.right),
-            break_slot: slot(index, arc.first_vertex + arc.vertex_count),
-        })
-        .collect()
+    let record = |arc: &Arc| ArcRecord {
+        left: plus_one(arc.left),
+        right: plus_one(arc.right),
+    };
+    mesh.arcs.iter().map(record).collect()
 }
 
-fn arc_at_blocks(arcs: &[ArcRecord]) -> Vec<u32> {
-    let slot_count = arcs.last().map_or(0, |arc| arc.break_slot as usize + 1);
-    let mut arc = 0;
-    (0..slot_count)
-        .step_by(BLOCK)
-        .map(|slot| {
-            while (arcs[arc].break_slot as usize) < slot {
-                arc += 1;
-            }
-            arc as u32
-        })
-        .collect()
+fn arc_at_slots(mesh: &FillMesh) -> Vec<u32> {
+    let mut arc_at = Vec::with_capacity(mesh.boundary.len() + mesh.arcs.len());
+    for (index, arc) in (0..).zip(&mesh.arcs) {
+        arc_at.extend((0..arc.vertex_count).map(|_| index));
+        arc_at.push(index | BREAK);
+    }
+    arc_at
 }
 
 /// Cap triangles with every boundary vertex moved behind the breaks before it.
-fn cap_indices(mesh: &FillMesh, arcs: &[ArcRecord], arc_at: &[u32]) -> Vec<[u32; 3]> {
-    let boundary_count = mesh.boundary.len() as u32;
+fn cap_indices(mesh: &FillMesh) -> Vec<[u32; 3]> {
     let arc_count = mesh.arcs.len() as u32;
-    let moved = |vertex: u32| {
-        if vertex >= boundary_count {
-            return vertex + arc_count;
-        }
-        // The slot lies at or behind `vertex`: its arc is found from that block on.
-        let mut arc = arc_at[vertex as usize / BLOCK];
-        while arcs[arc as usize].break_slot <= slot(arc, vertex) {
-            arc += 1;
-        }
-        slot(arc, vertex)
+    let slots = (0..).zip(&mesh.arcs).flat_map(|(index, arc)| {
+        (0..arc.vertex_count).map(move |k| slot(index, arc.first_vertex + k))
+    });
+    let slots: Vec<u32> = slots.collect();
+    let moved = |vertex: u32| match slots.get(vertex as usize) {
+        Some(&slot) => slot,
+        None => vertex + arc_count,
     };
     mesh.cap_triangles
         .iter()

@@ -33,6 +33,7 @@ pub(crate) fn coarser(
         return Ok(levels);
     }
     let loops = piece_loops(mesh);
+    let mut origins: Vec<u32> = (0..mesh.boundary.len() as u32).collect();
     let coarsest_m = COARSEST * mesh.ellipsoid.a_m;
     let mut tolerance_m = tolerance_m.max(1e-6 * mesh.ellipsoid.a_m) * STEP;
     while tolerance_m <= coarsest_m {
@@ -40,11 +41,21 @@ pub(crate) fn coarser(
         if finer.boundary.len() < WORTHWHILE {
             break;
         }
-        let mut level = simplified(finer, tolerance_m);
-        if level.vertices.len() as f64 <= SHARE * finer.boundary.len() as f64 {
+        let max_chord_m = MAX_CHORD * mesh.ellipsoid.a_m;
+        let simplifier = Simplifier::new(finer, mesh, &origins, tolerance_m, max_chord_m);
+        let kept: Vec<KeptVertices> = finer
+            .arcs
+            .par_iter()
+            .map(|arc| simplifier.kept(arc))
+            .collect();
+        let kept_count: usize = kept.iter().map(|kept| kept.vertices.len()).sum();
+        if kept_count as f64 <= SHARE * finer.boundary.len() as f64 {
+            let mut level = simplified(finer, &kept);
             let loops_of = |piece: usize| loop_vertices(&level.arcs, &loops[piece]);
             let loops_of: Vec<_> = (0..loops.len()).into_par_iter().map(loops_of).collect();
             level.add_caps(|piece| loops_of[piece].clone(), inside_sr, limits)?;
+            let vertices = kept.iter().flat_map(|kept| &kept.vertices);
+            origins = vertices.map(|&vertex| origins[vertex as usize]).collect();
             levels.push(level);
         }
         tolerance_m *= STEP;
@@ -52,21 +63,15 @@ pub(crate) fn coarser(
     Ok(levels)
 }
 
-/// A mesh without caps whose arcs lie within `tolerance_m` of the true edges.
-fn simplified(finer: &FillMesh, tolerance_m: f64) -> FillMesh {
-    let simplifier = Simplifier::new(finer, tolerance_m, MAX_CHORD * finer.ellipsoid.a_m);
-    let kept: Vec<KeptVertices> = finer
-        .arcs
-        .par_iter()
-        .map(|arc| simplifier.kept(arc))
-        .collect();
+/// A mesh without caps of the vertices that are kept of each arc.
+fn simplified(finer: &FillMesh, kept: &[KeptVertices]) -> FillMesh {
     let mut level = FillMesh {
         ellipsoid: finer.ellipsoid,
         fills: finer.fills.clone(),
         pieces: finer.pieces.iter().map(without_triangles).collect(),
         ..FillMesh::default()
     };
-    for (arc, kept) in finer.arcs.iter().zip(&kept) {
+    for (arc, kept) in finer.arcs.iter().zip(kept) {
         level.arcs.push(Arc {
             first_vertex: level.vertices.len() as u32,
             vertex_count: kept.vertices.len() as u32,

@@ -21,7 +21,7 @@ const MAX_FARTHEST_SPLITS: u32 = 40;
 /// The vertices of an arc that are kept.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct KeptVertices {
-    /// Indices into the finer mesh's vertices.
+    /// Indices into the vertices of the mesh that is simplified.
     pub(crate) vertices: Vec<u32>,
     /// For each but the last: how far, metres, the chord to the next may lie beside the true edges.
     pub(crate) deviations_m: Vec<f32>,
@@ -30,6 +30,10 @@ pub(crate) struct KeptVertices {
 /// Simplifies the arcs of a mesh.
 pub(crate) struct Simplifier<'a> {
     mesh: &'a FillMesh,
+    /// The mesh of which `mesh` may be a simplification, and for each boundary vertex which it is there:
+    /// deviations are measured from the finest, so that they do not add up from level to level.
+    finest: &'a FillMesh,
+    origins: &'a [u32],
     tree: VertexTree<'a>,
     /// How far, metres, chords may lie beside the true edges.
     tolerance_m: f64,
@@ -44,9 +48,17 @@ struct Section {
 }
 
 impl<'a> Simplifier<'a> {
-    pub(crate) fn new(mesh: &'a FillMesh, tolerance_m: f64, max_chord_m: f64) -> Self {
+    pub(crate) fn new(
+        mesh: &'a FillMesh,
+        finest: &'a FillMesh,
+        origins: &'a [u32],
+        tolerance_m: f64,
+        max_chord_m: f64,
+    ) -> Self {
         Self {
             mesh,
+            finest,
+            origins,
             tree: VertexTree::new(&mesh.vertices[..mesh.boundary.len()]),
             tolerance_m,
             max_chord_m,
@@ -96,20 +108,25 @@ impl<'a> Simplifier<'a> {
     /// The deviation of a chord in the section's place, or the vertex to split it at.
     fn split(&self, section: &Section) -> Result<f32, u32> {
         let &Section { first, last, .. } = section;
-        let deviations = &self.mesh.boundary[first as usize..last as usize];
-        let most = deviations
-            .iter()
-            .fold(0.0, |most: f32, vertex| most.max(vertex.deviation_m));
         if last == first + 1 {
-            return Ok(most);
+            return Ok(self.mesh.boundary[first as usize].deviation_m);
         }
         let position = |vertex: u32| self.mesh.vertices[vertex as usize];
         let chord = Chord::new(&self.mesh.ellipsoid, position(first), position(last));
-        let (farthest, beside_m) = (first + 1..last)
+        let (farthest, _) = (first + 1..last)
             .map(|vertex| (vertex, chord.distance_beside_m(position(vertex))))
             .max_by(|a, b| a.1.total_cmp(&b.1))
             .unwrap_or((first + 1, 0.0));
-        let deviation_m = f64::from(most) + beside_m;
+        let finest = self.origins[first as usize] as usize..self.origins[last as usize] as usize;
+        let stored_m = self.finest.boundary[finest.clone()]
+            .iter()
+            .fold(0.0, |most: f32, vertex| most.max(vertex.deviation_m));
+        let beside_m = self.finest.vertices[finest]
+            .iter()
+            .fold(0.0, |most: f64, &point_m| {
+                most.max(chord.distance_beside_m(point_m))
+            });
+        let deviation_m = f64::from(stored_m) + beside_m;
         let too_coarse = deviation_m > self.tolerance_m || chord.length_m > self.max_chord_m;
         if too_coarse || self.is_blocked(section, &chord, beside_m) {
             return Err(farthest);
