@@ -53,6 +53,8 @@ pub struct FillMesh {
     /// Cap triangles, counter-clockwise seen from outside, as indices into `vertices`; the
     /// triangles of a piece are contiguous, and so are the pieces of a fill.
     pub cap_triangles: Vec<[u32; 3]>,
+    /// The same triangles in rows of neighbours, in the same order.
+    pub cap_chunks: Vec<CapChunk>,
     /// Connected parts of fills, in fill order.
     pub pieces: Vec<Piece>,
     /// One per region, in input order.
@@ -108,6 +110,19 @@ pub struct Piece {
     /// Number of its triangles.
     pub triangle_count: u32,
     /// Where the piece lies.
+    pub bounds: Bounds,
+}
+
+/// Triangles of one piece that lie together.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct CapChunk {
+    /// Index of the piece.
+    pub piece: u32,
+    /// Index of the first triangle in [`FillMesh::cap_triangles`].
+    pub first_triangle: u32,
+    /// Number of triangles.
+    pub triangle_count: u32,
+    /// Where they lie.
     pub bounds: Bounds,
 }
 

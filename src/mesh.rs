@@ -2,6 +2,7 @@
 
 pub(crate) mod bounds;
 pub(crate) mod caps;
+pub(crate) mod chunks;
 pub(crate) mod densify;
 pub(crate) mod levels;
 pub(crate) mod mesh_build;

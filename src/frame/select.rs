@@ -173,22 +173,23 @@ fn code_of(codes: &[u32], side: Option<u32>) -> u32 {
 
 fn cap_runs(mesh: &FillMesh, codes: &[u32], sight: &Sight) -> Vec<CapRun> {
     let mut runs: Vec<CapRun> = Vec::new();
-    for (index, piece) in mesh.pieces.iter().enumerate() {
-        if codes[index + 1] == 0 || sight.outside_side_plane(&piece.bounds) {
+    let code_of = |piece: u32| codes[piece as usize + 1];
+    for chunk in &mesh.cap_chunks {
+        if code_of(chunk.piece) == 0 || sight.outside_side_plane(&chunk.bounds) {
             continue;
         }
-        let triangles = piece.first_triangle..piece.first_triangle + piece.triangle_count;
-        let tops = !sight.tops_hide_surface(&piece.bounds);
+        let triangles = chunk.first_triangle..chunk.first_triangle + chunk.triangle_count;
+        let tops = !sight.tops_hide_surface(&chunk.bounds);
         match runs.last_mut() {
             Some(run)
                 if run.triangles.end == triangles.start
                     && run.tops == tops
-                    && codes[run.piece as usize + 1] == codes[index + 1] =>
+                    && code_of(run.piece) == code_of(chunk.piece) =>
             {
                 run.triangles.end = triangles.end;
             }
             _ => runs.push(CapRun {
-                piece: index as u32,
+                piece: chunk.piece,
                 triangles,
                 tops,
             }),

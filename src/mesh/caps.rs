@@ -5,8 +5,9 @@ use rayon::prelude::*;
 
 use crate::{
     ellipsoid::Ellipsoid,
-    fill_mesh::{BoundaryVertex, Bounds, FillMesh},
+    fill_mesh::{BoundaryVertex, Bounds, CapChunk, FillMesh},
     limits::{Excess, Limits},
+    mesh::chunks::{Chunk, chunk},
     mesh::triangulate::{Caps, triangulate},
     mesh::vertex_room::VertexRoom,
 };
@@ -36,7 +37,7 @@ impl FillMesh {
         let margin_m = self.arcs_margin_m();
         let room = VertexRoom::new(*limits);
         room.take(self.vertices.len());
-        let caps: Vec<(Caps, Bounds)> = inside_sr
+        let caps: Vec<(Caps, Bounds, Vec<Chunk>)> = inside_sr
             .par_iter()
             .enumerate()
             .map(|(piece, &inside_sr)| {
@@ -44,7 +45,7 @@ impl FillMesh {
                     return Default::default();
                 }
                 let loops = loops_of(piece);
-                let caps = triangulate(ellipsoid, boundary_vertices, &loops, inside_sr);
+                let mut caps = triangulate(ellipsoid, boundary_vertices, &loops, inside_sr);
                 room.take(caps.interior.len());
                 let bounds = if loops.is_empty() {
                     Bounds::globe()
@@ -56,16 +57,33 @@ impl FillMesh {
                     let all = rim.chain(caps.interior.iter().copied());
                     Bounds::around(&ellipsoid, all, margin_m)
                 };
-                (caps, bounds)
+                let interior = &caps.interior;
+                let position = |vertex: u32| match boundary_vertices.get(vertex as usize) {
+                    Some(&boundary) => boundary,
+                    None => interior[vertex as usize - boundary_vertices.len()],
+                };
+                let chunks = chunk(&ellipsoid, &mut caps.triangles, position, margin_m);
+                (caps, bounds, chunks)
             })
             .collect();
         room.check()?;
         let boundary_count = self.vertices.len() as u32;
-        for (piece, (caps, bounds)) in self.pieces.iter_mut().zip(caps) {
+        for (index, (piece, (caps, bounds, chunks))) in (0..).zip(self.pieces.iter_mut().zip(caps))
+        {
             piece.bounds = bounds;
             piece.first_triangle = self.cap_triangles.len() as u32;
             piece.triangle_count = caps.triangles.len() as u32;
             self.sag_m = self.sag_m.max(caps.sag_m);
+            let mut first_triangle = piece.first_triangle;
+            for chunk in chunks {
+                self.cap_chunks.push(CapChunk {
+                    piece: index,
+                    first_triangle,
+                    triangle_count: chunk.triangle_count,
+                    bounds: chunk.bounds,
+                });
+                first_triangle += chunk.triangle_count;
+            }
             let shift = self.vertices.len() as u32 - boundary_count;
             let place = |vertex: u32| {
                 if vertex < boundary_count {
