@@ -203,8 +203,7 @@ fn styled_at(pixel: vec2<u32>, sample: u32, array: u32, last: bool) -> vec4<f32>
         color = mix(color_of(other, vec4<f32>(0.0), seen, array), color, share);
     }
     if needs(NEEDS_STROKES) && measured && last {
-        // Strokes of others, the one that is drawn later on top; all with the last draw, so that none paints
-        // over them.
+        // Strokes of others; all with the last draw, so that none paints over them.
         let lower = min(edge.left, edge.right);
         let upper = max(edge.left, edge.right);
         if lower != fill {

@@ -15,6 +15,7 @@ use crate::{
     fill_mesh::FillMesh,
     frame::code::Mantissa,
     frame::detail::Coarseness,
+    frame::layers::Counting,
     frame::placed::PatternPlace,
     frame_stats::FrameStats,
     gpu::count::{Drawn, Recorder},
@@ -50,10 +51,8 @@ pub struct Renderer {
     next_id: u32,
     /// Grows with every change of meshes and styles.
     revision: u64,
-    /// Layers of the current meshes and styles, once asked for.
-    layers: Option<Result<LayerTables, RendererError>>,
-    /// Layers for the stencil, once a frame had no head-room for winding sums.
-    fallback: Option<Result<LayerTables, RendererError>>,
+    /// Layers of the current meshes and styles for each way of counting, once asked for.
+    layers: [Option<Result<LayerTables, RendererError>>; Counting::ALL.len()],
     /// Made when a frame first needs them.
     style_pipelines: Option<StylePipelines>,
     /// Made for the first image, or when a frame first has styles that may show one.
@@ -171,8 +170,7 @@ impl Renderer {
             meshes: BTreeMap::new(),
             next_id: 0,
             revision: 0,
-            layers: None,
-            fallback: None,
+            layers: Default::default(),
             style_pipelines: None,
             images: None,
             sensors: SensorSet::default(),
@@ -202,8 +200,7 @@ impl Renderer {
 
     fn changed(&mut self) {
         self.revision += 1;
-        self.layers = None;
-        self.fallback = None;
+        self.layers = Default::default();
     }
 
     /// The sensors whose footprints are drawn.

@@ -49,11 +49,14 @@ pub(crate) struct Code {
 }
 
 impl Code {
-    /// The shortest code for `fills` ids whose sums provably fit `mantissa`, given the number of
-    /// triangles drawn for each id; `None` if there is none.
-    pub(crate) fn fitting(triangles_by_id: &[u64], mantissa: Mantissa) -> Option<Self> {
-        Self::candidates(triangles_by_id.len() as u32)
-            .find(|code| mantissa.holds(&code.largest_sums(triangles_by_id)))
+    /// The shortest code for `fills` ids whose sums provably fit `mantissa` so many `times`, given the
+    /// number of triangles drawn for each id; `None` if there is none.
+    pub(crate) fn fitting(triangles_by_id: &[u64], mantissa: Mantissa, times: u64) -> Option<Self> {
+        let fits = |code: &Self| {
+            let sums = code.largest_sums(triangles_by_id);
+            mantissa.holds(&sums.map(|sum| times * sum))
+        };
+        Self::candidates(triangles_by_id.len() as u32).find(fits)
     }
 
     /// A code for counting by stencil, where nothing is summed.
@@ -132,7 +135,7 @@ mod tests {
     fn codes_are_distinct_and_fit_their_bytes() {
         for fills in [1, 2, 31, 255, 256, 3_000, 70_000] {
             let triangles = vec![1; fills];
-            let code = Code::fitting(&triangles, Mantissa::Single).expect("fits");
+            let code = Code::fitting(&triangles, Mantissa::Single, 1).expect("fits");
             let mut seen = std::collections::HashSet::new();
             for id in 1..=fills as u32 {
                 let planes = code.planes_of(id);
@@ -145,17 +148,17 @@ mod tests {
 
     #[test]
     fn head_room_is_refused_when_not_proven() {
-        assert!(Code::fitting(&[2_047], Mantissa::Half).is_some());
-        assert!(Code::fitting(&[2_048], Mantissa::Half).is_none());
-        assert!(Code::fitting(&[1 << 24], Mantissa::Single).is_none());
+        assert!(Code::fitting(&[2_047], Mantissa::Half, 1).is_some());
+        assert!(Code::fitting(&[2_048], Mantissa::Half, 1).is_none());
+        assert!(Code::fitting(&[1 << 24], Mantissa::Single, 1).is_none());
         // 241 fills of 1 500 triangles: ids in one digit would sum to 4·10⁷.
-        let code = Code::fitting(&[1_500; 241], Mantissa::Single).expect("two digits fit");
+        let code = Code::fitting(&[1_500; 241], Mantissa::Single, 1).expect("two digits fit");
         assert_eq!((code.digits, code.planes, code.base), (2, 4, 16));
     }
 
     #[test]
     fn most_false_sums_are_recognised() {
-        let code = Code::fitting(&[100; 200], Mantissa::Single).expect("fits");
+        let code = Code::fitting(&[100; 200], Mantissa::Single, 1).expect("fits");
         let (mut valid, mut tried) = (0, 0);
         for a in 1..200u32 {
             for b in (1..200u32).step_by(7) {

@@ -279,12 +279,12 @@ mod tests {
 
     use super::*;
     use crate::{
-        CountTechnique, Ellipsoid, FillStyle, LonLat, MeshOptions,
+        Ellipsoid, FillStyle, LonLat, MeshOptions,
         countries::Dataset,
         frame::{
             code::Mantissa,
             edge_segments::EdgeSegment,
-            layers::{Layering, Styled},
+            layers::{Counting, FillOf, Layering, Styled},
             refine::RefinedChord,
             select::{Selection, slot},
         },
@@ -336,17 +336,18 @@ mod tests {
             styles: &styles,
         }];
         let layering =
-            Layering::assign(&styled, CountTechnique::Winding, Mantissa::Single).expect("fits");
+            Layering::assign(&styled, Counting::Winding, Mantissa::Single).expect("fits");
         let slots = edge_slots(&mesh);
         let layers: Vec<_> = layering
             .layers
             .iter()
             .map(|layer| {
                 // Every third fill asks for edges.
-                let asks = |id: usize| [0.0, if id % 3 == 1 { 4.0 } else { 0.0 }];
+                let asks = |of: &FillOf| [0.0, if of.fill % 3 == 0 { 4.0 } else { 0.0 }];
+                let nothing = std::iter::once([0.0; 2]);
                 Some(LayerEdges {
                     code: layer.code,
-                    reaches: (0..=layer.fills.len()).map(asks).collect(),
+                    reaches: nothing.chain(layer.fills.iter().map(asks)).collect(),
                 })
             })
             .collect();

@@ -6,7 +6,7 @@ use crate::{
     error::RendererError,
     frame::code::{Mantissa, PlaneSums},
     frame::edge_draws::LayerEdges,
-    frame::layers::{Layer, Layering, Styled},
+    frame::layers::{Counting, Layer, Layering, Styled},
     frame::lens::LensKind,
     frame::placed::PatternPlace,
     gpu::filled_buffer::FilledBuffer as _,
@@ -40,10 +40,10 @@ impl LayerTables {
     pub(crate) fn new(
         device: &wgpu::Device,
         from: &StyleSource<'_>,
-        technique: CountTechnique,
+        counting: Counting,
         mantissa: Mantissa,
     ) -> Result<Self, RendererError> {
-        let layering = Arc::new(Layering::assign(from.styled, technique, mantissa)?);
+        let layering = Arc::new(Layering::assign(from.styled, counting, mantissa)?);
         // Where the stencil counts, nothing is summed and 32-bit targets need no blending.
         let mantissa = match layering.technique {
             CountTechnique::Winding => mantissa,

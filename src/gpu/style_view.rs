@@ -1,6 +1,7 @@
 //! What a view keeps of styles: where its eye finds the patterns, and what is bound.
 
 use crate::{
+    frame::layers::Counting,
     frame::lens::LensKind,
     frame::placed::{PatternPlace, Placed},
     frame::reference::Reference,
@@ -13,7 +14,6 @@ use crate::{
     gpu::style_pipelines::{StyleKey, StylePipelines},
     gpu::style_table::{UNIFORM_PLACES_BYTES, UNIFORM_STYLES_BYTES},
     gpu::surface_binding::SurfaceBinding,
-    options::CountTechnique,
 };
 
 /// Buffers and bindings of one view.
@@ -27,7 +27,7 @@ pub(crate) struct StyleView {
     /// By layer; none where plain colours say all.
     layers: Vec<Option<StyledLayer>>,
     /// Which layer tables are bound.
-    revision: (u64, CountTechnique),
+    revision: (u64, Counting),
     lens: LensKind,
 }
 
@@ -44,7 +44,7 @@ const LAST_ARRAY: u32 = 1 << 16;
 pub(crate) struct StyleFrame<'a> {
     pub tables: &'a LayerTables,
     /// Which tables these are.
-    pub revision: (u64, CountTechnique),
+    pub revision: (u64, Counting),
     pub reference: Reference,
     pub uniform: SightUniform,
     pub lens: LensKind,
@@ -63,7 +63,7 @@ impl StyleView {
             edges: None,
             edge_cost: EdgeCost::default(),
             layers: Vec::new(),
-            revision: (0, CountTechnique::default()),
+            revision: (0, Counting::Winding),
             lens: LensKind::default(),
         }
     }

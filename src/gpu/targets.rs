@@ -3,8 +3,8 @@
 use glam::UVec2;
 
 use crate::{
-    frame::code::MAX_PLANES, gpu::fixed_function::copy_format, gpu::layer_tables::LayerTable,
-    gpu::pipelines::Pipelines, gpu::planes::Planes, pick::Pick,
+    frame::code::MAX_PLANES, frame::layers::Counting, gpu::fixed_function::copy_format,
+    gpu::layer_tables::LayerTable, gpu::pipelines::Pipelines, gpu::planes::Planes, pick::Pick,
 };
 
 /// What targets depend on.
@@ -16,7 +16,7 @@ pub(crate) struct TargetsKey {
     /// Whether the host's depth is copied, and that beside a stencil.
     pub copied: Option<Copied>,
     /// Which layer tables the bind groups refer to.
-    pub layer_revision: u64,
+    pub layer_revision: (u64, Counting),
 }
 
 /// A copy of the host's depth.

@@ -5,7 +5,7 @@ use crate::{
     error::RendererError,
     frame::code::PlaneSums,
     frame::edge_draws::EdgeWants,
-    frame::layers::Styled,
+    frame::layers::{Counting, Styled},
     frame::lens::log_range,
     frame::placed::PatternPlace,
     frame::select::{LayerDraws, Selection},
@@ -43,8 +43,8 @@ impl Renderer {
         if frame.size_px.max_element() > size_limit {
             return Err(RendererError::InvalidFrame("size_px"));
         }
-        let (choice, table_bytes, selections) = self.choose_layers(frame)?;
-        let layers = self.layers(choice)?;
+        let (counting, table_bytes, selections) = self.choose_layers(frame)?;
+        let layers = self.layers(counting)?;
         let sight = selections.first().map(|selected| &selected.sight);
         let mut prepared = Prepared {
             frame: *frame,
@@ -56,10 +56,10 @@ impl Renderer {
             stats: FrameStats::default(),
         };
         require(self.device.features(), prepared.projection.features())?;
-        self.check_styles(&selections, choice)?;
-        self.ensure_targets(view, &prepared, choice)?;
-        self.ensure_pipelines(&prepared, &selections, choice)?;
-        let place_bytes = self.prepare_styles(queue, view, &prepared, &selections, choice);
+        self.check_styles(&selections, counting)?;
+        self.ensure_targets(view, &prepared, counting)?;
+        self.ensure_pipelines(&prepared, &selections, counting)?;
+        let place_bytes = self.prepare_styles(queue, view, &prepared, &selections, counting);
         let mesh_bytes = self.upload(queue, view, selections);
         prepared.stats.upload_bytes = table_bytes + place_bytes + mesh_bytes;
         self.fill_stats(view, &mut prepared);
@@ -68,31 +68,35 @@ impl Renderer {
     }
 
     /// The layers that this frame is counted in, the bytes uploaded for them, and what the frame shows:
-    /// the stencil's layers where refined walls leave no head-room for winding sums.
+    /// with more planes, or those of the stencil, where refined walls leave no head-room for winding sums.
     fn choose_layers(
         &mut self,
         frame: &Frame,
-    ) -> Result<(Choice, u64, Vec<Selected>), RendererError> {
+    ) -> Result<(Counting, u64, Vec<Selected>), RendererError> {
+        let mut counting = match self.options.count {
+            CountTechnique::Winding => Counting::Winding,
+            CountTechnique::Stencil => Counting::Stencil,
+        };
         let mut bytes = 0;
-        if self.layers.is_none() {
-            let tables = self.make_layers(self.options.count);
-            bytes += tables.as_ref().map_or(0, |tables| tables.bytes);
-            self.layers = Some(tables);
+        loop {
+            if self.layers[counting as usize].is_none() {
+                let tables = self.make_layers(counting);
+                bytes += tables.as_ref().map_or(0, |tables| tables.bytes);
+                self.layers[counting as usize] = Some(tables);
+            }
+            let selections = self.select(frame, counting)?;
+            if self.has_head_room(&selections, counting)? {
+                return Ok((counting, bytes, selections));
+            }
+            counting = match counting {
+                Counting::Winding => Counting::SpareWinding,
+                // That always has room.
+                Counting::SpareWinding | Counting::Stencil => Counting::Stencil,
+            };
         }
-        let selections = self.select(frame, Choice::Wanted)?;
-        if self.has_head_room(&selections)? {
-            return Ok((Choice::Wanted, bytes, selections));
-        }
-        if self.fallback.is_none() {
-            let tables = self.make_layers(CountTechnique::Stencil);
-            bytes += tables.as_ref().map_or(0, |tables| tables.bytes);
-            self.fallback = Some(tables);
-        }
-        let selections = self.select(frame, Choice::Fallback)?;
-        Ok((Choice::Fallback, bytes, selections))
     }
 
-    fn make_layers(&self, technique: CountTechnique) -> Result<LayerTables, RendererError> {
+    fn make_layers(&self, counting: Counting) -> Result<LayerTables, RendererError> {
         let styled: Vec<Styled<'_>> = self
             .meshes
             .values()
@@ -112,12 +116,16 @@ impl Renderer {
             images: self.images.as_ref(),
             smooth: self.options.smooth_edges && self.options.sample_count == 1,
         };
-        LayerTables::new(&self.device, &from, technique, self.mantissa)
+        LayerTables::new(&self.device, &from, counting, self.mantissa)
     }
 
     /// Whether the sums of this frame, refined walls included, are proven exact.
-    fn has_head_room(&self, selections: &[Selected]) -> Result<bool, RendererError> {
-        let layers = self.layers(Choice::Wanted)?;
+    fn has_head_room(
+        &self,
+        selections: &[Selected],
+        counting: Counting,
+    ) -> Result<bool, RendererError> {
+        let layers = self.layers(counting)?;
         let refined: Vec<PlaneSums> = (0..layers.layering.layers.len())
             .map(|layer| {
                 let mut sums = PlaneSums::default();
@@ -131,20 +139,16 @@ impl Renderer {
         Ok(layers.leave_room_for(&refined))
     }
 
-    pub(super) fn layers(&self, choice: Choice) -> Result<&LayerTables, RendererError> {
-        let layers = match choice {
-            Choice::Wanted => &self.layers,
-            Choice::Fallback => &self.fallback,
-        };
-        match layers {
+    pub(super) fn layers(&self, counting: Counting) -> Result<&LayerTables, RendererError> {
+        match &self.layers[counting as usize] {
             Some(Ok(layers)) => Ok(layers),
             Some(Err(error)) => Err(error.clone()),
             None => Err(RendererError::NoSuchMesh),
         }
     }
 
-    fn select(&self, frame: &Frame, choice: Choice) -> Result<Vec<Selected>, RendererError> {
-        let tables = self.layers(choice)?;
+    fn select(&self, frame: &Frame, counting: Counting) -> Result<Vec<Selected>, RendererError> {
+        let tables = self.layers(counting)?;
         let layering = &tables.layering;
         let layer_count = layering.layers.len();
         self.meshes
@@ -202,14 +206,14 @@ impl Renderer {
         &self,
         view: &mut View,
         prepared: &Prepared,
-        choice: Choice,
+        counting: Counting,
     ) -> Result<(), RendererError> {
-        let layers = self.layers(choice)?;
+        let layers = self.layers(counting)?;
         let key = TargetsKey {
             size_px: prepared.frame.size_px,
             planes: layers.planes(),
             copied: prepared.copied(),
-            layer_revision: self.revision,
+            layer_revision: (self.revision, counting),
         };
         if view
             .targets
@@ -229,9 +233,9 @@ impl Renderer {
         &mut self,
         prepared: &Prepared,
         selections: &[Selected],
-        choice: Choice,
+        counting: Counting,
     ) -> Result<(), RendererError> {
-        let planes = self.layers(choice)?.planes();
+        let planes = self.layers(counting)?.planes();
         for (index, planes) in planes.into_iter().enumerate() {
             let uses = |has: fn(&LayerDraws) -> bool| {
                 selections
@@ -352,15 +356,6 @@ fn logarithm(sight: &Sight) -> Option<[f32; 4]> {
     let log = sight.log_depth?;
     let parts = [log_range(&log), 1.0 / log.per_m, log.from_m, sight.near_m];
     Some(parts.map(|part| part as f32))
-}
-
-/// Which layers a frame is counted in.
-#[derive(Clone, Copy)]
-pub(super) enum Choice {
-    /// Those of the technique asked for.
-    Wanted,
-    /// Those of the stencil.
-    Fallback,
 }
 
 /// What a frame shows of one mesh.

@@ -4,14 +4,12 @@ use std::collections::BTreeMap;
 
 use glam::{DVec2, UVec2};
 
-use super::{
-    MeshId, Renderer, Resident,
-    prepare::{Choice, Selected},
-};
+use super::{MeshId, Renderer, Resident, prepare::Selected};
 use crate::{
     error::{RendererError, StyleError},
     extents::Extents,
     fill_mesh::FillMesh,
+    frame::layers::Counting,
     frame::placed::{AnglePlace, MapPlace, PatternPlace},
     frame::reference::Reference,
     frame::sight_uniform::SightUniform,
@@ -154,9 +152,9 @@ impl Renderer {
     pub(super) fn check_styles(
         &self,
         selections: &[Selected],
-        choice: Choice,
+        counting: Counting,
     ) -> Result<(), RendererError> {
-        let styled = self.layers(choice)?.styles.iter().any(Option::is_some);
+        let styled = self.layers(counting)?.styles.iter().any(Option::is_some);
         let ellipsoids = || selections.iter().map(|selected| selected.sight.ellipsoid);
         if styled && ellipsoids().zip(ellipsoids().skip(1)).any(|(a, b)| a != b) {
             return Err(RendererError::Unsupported(
@@ -173,12 +171,9 @@ impl Renderer {
         view: &mut View,
         prepared: &Prepared,
         selections: &[Selected],
-        choice: Choice,
+        counting: Counting,
     ) -> u64 {
-        let tables = match choice {
-            Choice::Wanted => &self.layers,
-            Choice::Fallback => &self.fallback,
-        };
+        let tables = &self.layers[counting as usize];
         let styled = |tables: &&LayerTables| tables.styles.iter().any(Option::is_some);
         let tables = tables.as_ref().and_then(|tables| tables.as_ref().ok());
         let (Some(tables), Some(Selected { sight, .. })) =
@@ -217,7 +212,7 @@ impl Renderer {
             .collect();
         let with = StyleFrame {
             tables,
-            revision: (self.revision, prepared.technique),
+            revision: (self.revision, counting),
             uniform,
             lens: sight.kind,
             reference,

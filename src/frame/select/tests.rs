@@ -6,11 +6,11 @@ use glam::{DMat3, DMat4, DVec3, DVec4, UVec2};
 
 use super::*;
 use crate::{
-    CountTechnique, Ellipsoid, FillStyle, LonLat, MeshOptions,
+    Ellipsoid, FillStyle, LonLat, MeshOptions,
     countries::Dataset,
     frame::{
         code::Mantissa,
-        layers::{Layering, Styled},
+        layers::{Counting, Layering, Styled},
         refine::{BOTTOM, TOP},
     },
     options::{Camera, Frame, HeightRange, RendererOptions},
@@ -136,8 +136,7 @@ fn what_is_drawn_is_closed() {
         mesh: &mesh,
         styles: &styles,
     }];
-    let layering =
-        Layering::assign(&styled, CountTechnique::Winding, Mantissa::Single).expect("fits");
+    let layering = Layering::assign(&styled, Counting::Winding, Mantissa::Single).expect("fits");
     let (mut culled, mut refined) = (0, 0);
     for (at, height_m, field_of_view_deg) in [
         (LonLat::new(10.0, 50.0), 2e7, 60.0),

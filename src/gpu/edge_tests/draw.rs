@@ -8,7 +8,7 @@ use crate::{
     frame::{
         code::Mantissa,
         edge_draws::{EdgeWants, LayerEdges},
-        layers::{Layering, Styled},
+        layers::{Counting, Layer, Layering, Styled},
         select::Selection,
         sight::Sight,
     },
@@ -20,7 +20,7 @@ use crate::{
         pipelines::Pipelines,
         surface_binding::{SurfaceBinding, surface_layout},
     },
-    options::{CountTechnique, Frame, HeightRange, RendererOptions},
+    options::{Frame, HeightRange, RendererOptions},
     renderer::MeshId,
     view::{MeshView, Upload},
 };
@@ -31,6 +31,7 @@ pub struct Texel {
     pub signed_m: f64,
     pub across_m: f64,
     pub along_m: f64,
+    /// Indices of the fills, plus one.
     pub sides: [u32; 2],
     #[expect(dead_code, reason = "dashes are judged in pictures")]
     pub along: u32,
@@ -50,12 +51,16 @@ fn half(bits: u32) -> f64 {
     }
 }
 
-fn decoded([x, y, z, w]: [u32; 4]) -> Option<Texel> {
+fn decoded([x, y, z, w]: [u32; 4], layer: &Layer) -> Option<Texel> {
+    let side = |id: u32| match id {
+        0 => 0,
+        id => layer.fills[id as usize - 1].fill + 1,
+    };
     (z != 0).then(|| Texel {
         signed_m: f32::from_bits(x).into(),
         across_m: half(y & 0xffff).exp2(),
         along_m: half(y >> 16).exp2(),
-        sides: [z & 0xffff, z >> 16],
+        sides: [z & 0xffff, z >> 16].map(side),
         along: w,
     })
 }
@@ -91,8 +96,7 @@ pub fn draw(
         mesh,
         styles: &styles,
     }];
-    let layering =
-        Layering::assign(&styled, CountTechnique::Winding, Mantissa::Single).expect("fits");
+    let layering = Layering::assign(&styled, Counting::Winding, Mantissa::Single).expect("fits");
     let layers: Vec<Option<LayerEdges>> = layering
         .layers
         .iter()
@@ -166,7 +170,7 @@ pub fn draw(
     let target = edges.target(0).expect("edges were asked for");
     read(gpu, target.texture())
         .into_iter()
-        .map(decoded)
+        .map(|texel| decoded(texel, &layering.layers[0]))
         .collect()
 }
 
