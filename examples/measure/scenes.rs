@@ -20,7 +20,7 @@ const REACH_DEG: f64 = 65.0;
 /// Circles that lie apart or over each other.
 const DEEP_COUNT: usize = 2000;
 /// The same circles, over each other, within this of the middle.
-const DEEP_REACH_DEG: f64 = 6.0;
+const DEEP_REACH_DEG: f64 = 5.0;
 /// Vertices of the mesh that is seen at a slant, and its rings.
 const OBLIQUE_VERTICES: usize = 446_540;
 const OBLIQUE_RINGS: usize = 20;
