@@ -11,6 +11,7 @@ pub mod output;
 pub mod palette;
 pub mod png;
 pub mod progress;
+pub mod spiral;
 pub mod targets;
 pub mod times;
 

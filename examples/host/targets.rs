@@ -107,6 +107,24 @@ impl Targets {
         })
     }
 
+    /// Begins a pass for what lies on the ground: colour, and the ground's depth read-only.
+    pub fn surface_pass<'a>(
+        &self,
+        encoder: &'a mut wgpu::CommandEncoder,
+        load: wgpu::LoadOp<wgpu::Color>,
+    ) -> wgpu::RenderPass<'a> {
+        encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("surface"),
+            color_attachments: &[Some(self.color_attachment(load, true))],
+            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                view: &self.depth_view,
+                depth_ops: None,
+                stencil_ops: None,
+            }),
+            ..Default::default()
+        })
+    }
+
     fn color_attachment(
         &self,
         load: wgpu::LoadOp<wgpu::Color>,

@@ -1,8 +1,8 @@
 //! Circles spread over one side of the globe that drift eastwards.
 
-use std::f64::consts::PI;
-
 use globefill::{Ellipsoid, LonLat, Pose};
+
+use crate::host::spiral::spiral;
 
 /// Around which the circles' middles lie, and how far from it they lie at most.
 const MIDDLE: LonLat = LonLat::new(10.0, 20.0);
@@ -20,23 +20,8 @@ pub struct Circles {
 impl Circles {
     /// Points in a Fibonacci spiral, evenly spread.
     pub fn new(count: usize, height_m: f64) -> Self {
-        let (sin_lat, cos_lat) = MIDDLE.lat_deg.to_radians().sin_cos();
-        let golden_angle_rad = PI * (3.0 - 5.0_f64.sqrt());
-        let middle = |index: usize| {
-            let part = (index as f64 + 0.5) / count as f64;
-            let z = 1.0 - (1.0 - SPREAD_DEG.to_radians().cos()) * part;
-            let (sin, cos) = (index as f64 * golden_angle_rad).sin_cos();
-            let (x, y) = ((1.0 - z * z).sqrt() * cos, (1.0 - z * z).sqrt() * sin);
-            // The spiral's axis, z, is turned towards the middle.
-            let outward = cos_lat * z - sin_lat * y;
-            let north = sin_lat * z + cos_lat * y;
-            LonLat::new(
-                x.atan2(outward).to_degrees() + MIDDLE.lon_deg,
-                north.asin().to_degrees(),
-            )
-        };
         Self {
-            middles: (0..count).map(middle).collect(),
+            middles: spiral(MIDDLE, SPREAD_DEG, count),
             height_m,
         }
     }

@@ -1,0 +1,67 @@
+//! A scene with its camera, ground and mesh: what every technique draws.
+
+use std::time::Instant;
+
+use glam::UVec2;
+use globefill::{DepthConvention, Ellipsoid, FillMesh, Frame, HeightRange, MeshOptions};
+
+use crate::{
+    host::{
+        camera::{Eye, Shot},
+        gpu::Gpu,
+        ground::Ground,
+        times::milliseconds_since,
+    },
+    scene::Scene,
+};
+
+/// Earth's terrain: volumes that need not know the ground reach from the Dead Sea to above Everest.
+const TERRAIN: HeightRange = HeightRange {
+    min_m: -500.0,
+    max_m: 9000.0,
+};
+
+/// A scene, ready to be drawn.
+pub struct Stage {
+    pub scene: Scene,
+    pub ellipsoid: Ellipsoid,
+    pub eye: Eye,
+    pub ground: Ground,
+    pub mesh: FillMesh,
+    pub frame: Frame,
+    /// How long meshing took.
+    pub build_ms: f64,
+}
+
+impl Stage {
+    pub fn new(gpu: &Gpu, scene: Scene, size_px: UVec2, pixel_error: f64) -> Result<Self, String> {
+        let ellipsoid = Ellipsoid::WGS84;
+        let start = Instant::now();
+        let options = MeshOptions {
+            ellipsoid,
+            tolerance_m: scene.tolerance_m,
+            ..Default::default()
+        };
+        let mesh = FillMesh::build(&scene.regions, &options).map_err(|error| error.to_string())?;
+        let build_ms = milliseconds_since(start);
+        let shot = Shot {
+            fov_deg: scene.fov_deg(size_px),
+            size_px,
+            depth: DepthConvention::Reversed,
+        };
+        let eye = Eye::above(&ellipsoid, None, &scene.viewpoint, shot);
+        Ok(Self {
+            ground: Ground::new(gpu, &ellipsoid, None, &eye)?,
+            frame: Frame {
+                terrain: TERRAIN,
+                pixel_error,
+                ..Frame::new(eye.camera, size_px)
+            },
+            scene,
+            ellipsoid,
+            eye,
+            mesh,
+            build_ms,
+        })
+    }
+}
