@@ -343,7 +343,7 @@ mod tests {
             .iter()
             .map(|layer| {
                 // Every third fill asks for edges.
-                let asks = |of: &FillOf| [0.0, if of.fill % 3 == 0 { 4.0 } else { 0.0 }];
+                let asks = |of: &FillOf| [0.0, if of.fill.is_multiple_of(3) { 4.0 } else { 0.0 }];
                 let nothing = std::iter::once([0.0; 2]);
                 Some(LayerEdges {
                     code: layer.code,
