@@ -15,44 +15,80 @@ struct Layer {
 
 @group(0) @binding(0) var<uniform> layer: Layer;
 
+// The same, where pipelines are made for a shape of codes: the rest of decoding is compiled away. Else 0.
+override DIGITS: u32 = 0u;
+override PLANES: u32 = 0u;
+override CHECK_BITS: u32 = 0u;
+
+fn digits() -> u32 {
+    if DIGITS > 0u {
+        return DIGITS;
+    }
+    return layer.digits;
+}
+
+fn checks() -> u32 {
+    if PLANES > 0u {
+        return PLANES - DIGITS;
+    }
+    return layer.planes - layer.digits;
+}
+
+fn check_bits() -> u32 {
+    if CHECK_BITS > 0u {
+        return CHECK_BITS;
+    }
+    return layer.check_bits;
+}
+
 const NONE: u32 = 0u;
 const INVALID: u32 = 0xffffffffu;
 
-// The planes that check an id; the same as in Code::planes_of of the crate.
-fn checks_of(id: u32) -> vec2<f32> {
+// What differs from layer to layer of one shape: fills, base, and the last column and row of the picture.
+var<private> known: vec4<u32>;
+
+fn known_of_layer() -> vec4<u32> {
+    return vec4<u32>(layer.fills, layer.base, vec2<u32>(size_px() - 1));
+}
+
+// Whether the planes behind the digits are those that check an id; as in Code::planes_of of the crate. They
+// are all zero for nothing.
+fn are_checked(id: u32, found: vec2<f32>) -> bool {
     var mixed = (id ^ (id >> 16u)) * 0x7feb352du;
     mixed = (mixed ^ (mixed >> 15u)) * 0x846ca68bu;
     mixed ^= mixed >> 16u;
-    let behind = vec2<u32>(layer.digits) + vec2<u32>(0u, 1u);
-    let mask = select(vec2<u32>(0u), vec2<u32>((1u << layer.check_bits) - 1u), behind < vec2<u32>(layer.planes));
-    return vec2<f32>(vec2<u32>(mixed, mixed >> layer.check_bits) & mask);
+    let mask = (1u << check_bits()) - 1u;
+    var checked = true;
+    if checks() > 0u {
+        checked = found.x == f32(mixed & mask);
+    }
+    if checks() > 1u {
+        checked = checked && found.y == f32((mixed >> check_bits()) & mask);
+    }
+    return checked;
 }
 
-// Which fill the sums at a pixel name. Where faces meet within a rounding step of the surface, sums
-// can be those of no fill: a digit out of range, or checks that belong to another id.
+// Which fill the sums at a pixel name; they are integers. Where faces meet within a rounding step of the
+// surface, sums can be those of no fill: a digit out of range, or checks that belong to another id.
 fn fill_of(sums: vec4<f32>) -> u32 {
-    let plane = vec4<u32>(0u, 1u, 2u, 3u);
-    let counted = select(vec4<f32>(0.0), round(sums), plane < vec4<u32>(layer.planes));
-    let base = f32(layer.base);
-    var number = counted.x;
-    var checks = counted.yz;
-    if layer.digits > 1u {
-        number += counted.y * base;
-        checks = counted.zw;
+    let base = f32(known.y);
+    var number = sums.x;
+    var found = sums.yz;
+    var in_range = true;
+    if digits() > 1u {
+        in_range = all(sums.xy >= vec2<f32>(0.0)) && all(sums.xy < vec2<f32>(base));
+        number += sums.y * base;
+        found = sums.zw;
     }
-    if layer.digits > 2u {
-        number += counted.z * base * base;
-        checks = vec2<f32>(counted.w, 0.0);
+    if digits() > 2u {
+        in_range = in_range && sums.z >= 0.0 && sums.z < base;
+        number += sums.z * base * base;
+        found = vec2<f32>(sums.w, 0.0);
     }
-    let is_digit = plane < vec4<u32>(layer.digits);
-    let is_check = plane < vec4<u32>(layer.digits + 2u);
-    let below_check = select(vec4<f32>(1.0), vec4<f32>(f32(1u << layer.check_bits)), is_check);
-    let below = select(below_check, vec4<f32>(base), is_digit);
-    let in_range = all(counted >= vec4<f32>(0.0)) && all(counted < below) && number <= f32(layer.fills);
-    let id = u32(max(number, 0.0));
-    // Nothing has no digits, and no checks.
-    let expected = select(checks_of(id), vec2<f32>(0.0), number == 0.0);
-    return select(INVALID, id, in_range && all(checks == expected));
+    // Below zero is beyond all as well.
+    let id = bitcast<u32>(i32(number));
+    in_range = in_range && id <= known.x;
+    return select(INVALID, id, in_range && are_checked(id, found));
 }
 
 // Steps to the pixel itself, the neighbours beside it and those across its corners, and one more: two bits
@@ -62,7 +98,7 @@ const STEPS_Y: u32 = 164373u;
 
 // The fill at a pixel, or at its nearest neighbour with a valid sum.
 fn fill_at(pixel: vec2<i32>, sample: u32) -> u32 {
-    let last = size_px() - 1;
+    let last = vec2<i32>(known.zw);
     var fill = INVALID;
     var step = 0u;
     // The pixel itself is asked in the loop: software walks through what follows a loop even if no lane

@@ -14,6 +14,7 @@ struct Answer {
 
 @compute @workgroup_size(1)
 fn cs_pick() {
+    known = known_of_layer();
     answer.fills[answer.layers] = fill_at(vec2<i32>(answer.pixel), 0u);
     answer.layers += 1u;
 }

@@ -1,5 +1,5 @@
 // The counted sums, one texture with as many channels as there are planes.
-@group(0) @binding(2) var planes: texture_2d<f32>;
+@group(0) @binding(3) var planes: texture_2d<f32>;
 
 fn size_px() -> vec2<i32> {
     return vec2<i32>(textureDimensions(planes));

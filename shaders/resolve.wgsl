@@ -1,25 +1,53 @@
 // Resolving: the counted sums name the fill at each pixel; its colour goes to the host's target.
 
-// Premultiplied colours by id - 1.
-@group(0) @binding(1) var<storage, read> colors: array<vec4<f32>>;
+// Premultiplied colours by id - 1: two to an element, 16 bits a channel, where they are few and ordinary.
+@group(0) @binding(1) var<uniform> packed_colors: array<vec4<u32>, 512>;
+@group(0) @binding(2) var<storage, read> colors: array<vec4<f32>>;
 
-fn color_at(pixel: vec2<i32>, sample: u32) -> vec4<f32> {
-    let fill = fill_at(pixel, sample);
+// Whether the packed colours are read: software and some GPUs read uniforms several times as fast.
+override FEW: bool = false;
+
+struct Screen {
+    @builtin(position) position: vec4<f32>,
+    // It travels with the vertices: software reads a uniform anew for every lane of a vector.
+    @location(0) @interpolate(flat) known: vec4<u32>,
+}
+
+// The corners of a window, as a strip. Its least corner is in the vertices' indices, its greatest in the
+// instance's, in 2^-15 of the picture: what changes with every frame needs no buffer so.
+@vertex
+fn vs_resolve(@builtin(vertex_index) vertex: u32, @builtin(instance_index) instance: u32) -> Screen {
+    let least = vec2<u32>((vertex >> 2u) & 0x7fffu, vertex >> 17u);
+    let greatest = vec2<u32>(instance & 0xffffu, instance >> 16u);
+    let at = select(least, greatest, vec2<bool>((vertex & 1u) == 1u, (vertex & 2u) == 2u));
+    return Screen(vec4<f32>(vec2<f32>(at) / 16384.0 - 1.0, 0.0, 1.0), known_of_layer());
+}
+
+fn color_of(fill: u32) -> vec4<f32> {
+    let index = fill - 1u;
+    if FEW {
+        let at = 2u * (index & 1u);
+        let pair = vec2<u32>(packed_colors[index / 2u][at], packed_colors[index / 2u][at + 1u]);
+        return vec4<f32>(unpack2x16unorm(pair.x), unpack2x16unorm(pair.y));
+    }
+    return colors[index];
+}
+
+fn color_at(in: Screen, sample: u32) -> vec4<f32> {
+    known = in.known;
+    let fill = fill_at(vec2<i32>(in.position.xy), sample);
     if fill == NONE {
         discard;
     }
-    return colors[fill - 1u];
+    return color_of(fill);
 }
 
 @fragment
-fn fs_resolve(@builtin(position) pixel: vec4<f32>) -> @location(0) vec4<f32> {
-    return color_at(vec2<i32>(pixel.xy), 0u);
+fn fs_resolve(in: Screen) -> @location(0) vec4<f32> {
+    return color_at(in, 0u);
 }
 
 @fragment
-fn fs_resolve_sample(
-    @builtin(position) pixel: vec4<f32>,
-    @builtin(sample_index) sample: u32,
-) -> @location(0) vec4<f32> {
-    return color_at(vec2<i32>(pixel.xy), sample);
+fn fs_resolve_sample(in: Screen, @builtin(sample_index) sample: u32) -> @location(0) vec4<f32> {
+    return color_at(in, sample);
 }

@@ -19,6 +19,7 @@ struct Screen {
     @location(7) @interpolate(flat) bounds: vec4<f32>,
     // Width and height; the array of images that this draw shows, and whether it is the last of the layer.
     @location(8) @interpolate(flat) draw: vec4<u32>,
+    @location(9) @interpolate(flat) layer: vec4<u32>,
 }
 
 const LAST_ARRAY: u32 = 65536u;
@@ -27,22 +28,24 @@ const LAST_ARRAY: u32 = 65536u;
 @vertex
 fn vs_styled(@builtin(vertex_index) corner: u32, @builtin(instance_index) draw: u32) -> Screen {
     let greatest = vec2<bool>((corner & 1u) == 1u, corner >= 2u);
-    let known = sight_bound;
+    let seen_from = sight_bound;
     return Screen(
-        vec4<f32>(select(known.window.xy, known.window.zw, greatest), 0.0, 1.0),
-        known.ray,
-        known.right,
-        known.down,
-        known.depth,
-        known.ellipsoid,
-        known.eye_gradient,
-        known.foot_gradient,
-        known.bounds,
-        vec4<u32>(known.size.xy, draw % LAST_ARRAY, draw / LAST_ARRAY),
+        vec4<f32>(select(seen_from.window.xy, seen_from.window.zw, greatest), 0.0, 1.0),
+        seen_from.ray,
+        seen_from.right,
+        seen_from.down,
+        seen_from.depth,
+        seen_from.ellipsoid,
+        seen_from.eye_gradient,
+        seen_from.foot_gradient,
+        seen_from.bounds,
+        vec4<u32>(seen_from.size.xy, draw % LAST_ARRAY, draw / LAST_ARRAY),
+        known_of_layer(),
     );
 }
 
 fn take_sight(in: Screen) {
+    known = in.layer;
     sight.ray = in.ray;
     sight.right = in.right;
     sight.down = in.down;

@@ -4,6 +4,7 @@ mod picking;
 mod prepare;
 mod sensors;
 mod styles;
+mod windows;
 
 use std::{
     collections::{BTreeMap, HashMap},
@@ -301,9 +302,12 @@ impl Renderer {
         {
             for (index, layer) in targets.layers.iter().enumerate() {
                 pass.set_bind_group(0, &layer.resolve_group, &[]);
-                if !self.resolve_styled(view, pass, index) {
-                    pass.set_pipeline(self.pipelines.get(Key::Resolve));
-                    pass.draw(0..3, 0..1);
+                if !self.resolve_styled(view, pass, index)
+                    && let Some(draw) = view.windows.get(index).copied().flatten()
+                {
+                    pass.set_pipeline(self.pipelines.get(Key::Resolve(layer.resolve_key)));
+                    let (vertex, instance) = (draw.vertex, draw.instance);
+                    pass.draw(vertex..vertex + 4, instance..instance + 1);
                 }
             }
         }

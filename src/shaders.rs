@@ -70,13 +70,12 @@ pub fn copy_depth(sample_count: u32, logarithmic: bool) -> String {
 
 /// Decoding and colouring.
 pub fn resolve(sample_count: u32) -> String {
-    [SCREEN, planes(sample_count), LAYER, RESOLVE].concat()
+    [planes(sample_count), LAYER, RESOLVE].concat()
 }
 
 /// Decoding, surface positions, patterns; `few` where styles and places fit into uniforms.
 pub fn resolve_styled(sample_count: u32, few: bool) -> String {
     let parts = [
-        SCREEN,
         planes(sample_count),
         LAYER,
         depth(sample_count),

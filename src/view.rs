@@ -6,6 +6,7 @@ use crate::{
     frame::select::Selection,
     frame::sight::Sight,
     frame::volumes::Volume,
+    frame::window::WindowDraw,
     frame_stats::FrameStats,
     gpu::fixed_point::FixedEye,
     gpu::gpu_mesh::GpuMesh,
@@ -25,6 +26,8 @@ use crate::{
 pub struct View {
     pub(crate) targets: Option<Targets>,
     pub(crate) meshes: HashMap<MeshId, MeshView>,
+    /// By layer: where its plain colours are drawn, if they are.
+    pub(crate) windows: Vec<Option<WindowDraw>>,
     /// Only while there are patterns, strokes or fades.
     pub(crate) styles: Option<StyleView>,
     /// Only while there are sensors.

@@ -37,6 +37,25 @@ impl Mantissa {
     }
 }
 
+/// What programs that decode are made for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct CodeShape {
+    digits: u32,
+    planes: u32,
+    check_bits: u32,
+}
+
+impl CodeShape {
+    /// The overrides of layer.wgsl.
+    pub(crate) fn constants(self) -> [(&'static str, f64); 3] {
+        [
+            ("DIGITS", self.digits.into()),
+            ("PLANES", self.planes.into()),
+            ("CHECK_BITS", self.check_bits.into()),
+        ]
+    }
+}
+
 /// A positional code for the ids 1 … `fills`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Code {
@@ -57,6 +76,14 @@ impl Code {
             mantissa.holds(&sums.map(|sum| times * sum))
         };
         Self::candidates(triangles_by_id.len() as u32).find(fits)
+    }
+
+    pub(crate) fn shape(&self) -> CodeShape {
+        CodeShape {
+            digits: self.digits,
+            planes: self.planes,
+            check_bits: self.check_bits,
+        }
     }
 
     /// A code for counting by stencil, where nothing is summed.

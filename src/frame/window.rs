@@ -75,6 +75,38 @@ impl Window {
     }
 }
 
+/// A window in the indices of a draw, as resolve.wgsl reads them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct WindowDraw {
+    /// Of the first of four vertices: the least corner, in 2⁻¹⁵ of the picture, above two bits.
+    pub vertex: u32,
+    /// Of the instance: the greatest corner.
+    pub instance: u32,
+}
+
+impl Window {
+    /// Whether it holds the whole picture.
+    pub(crate) fn is_full(self) -> bool {
+        self.common(Self::FULL) == Self::FULL
+    }
+
+    /// The draw of all its pixels and `margin_px` around; nothing where it holds none of the picture.
+    pub(crate) fn draw(self, size_px: UVec2, margin_px: f64) -> Option<WindowDraw> {
+        let Self { min, max } = self.common(Self::FULL);
+        if min.cmpgt(max).any() {
+            return None;
+        }
+        let [left, below, right, above] = self.pixels(size_px, margin_px).map(f64::from);
+        let steps = |ndc: f64| (ndc + 1.0) * 16384.0;
+        let [left, below] = [left, below].map(|least| steps(least).floor().min(32767.0) as u32);
+        let [right, above] = [right, above].map(|greatest| steps(greatest).ceil() as u32);
+        Some(WindowDraw {
+            vertex: left << 2 | below << 17,
+            instance: right | above << 16,
+        })
+    }
+}
+
 /// The coordinates k at which the planes `row` · v = k `w_row` · v touch a sphere:
 /// ((`row` − k `w_row`) · middle)² = radius² |`row` − k `w_row`|². None if the sphere reaches w = 0.
 fn tangents(row: DVec4, w_row: DVec4, middle_m: DVec3, radius_m: f64) -> Option<(f64, f64)> {
@@ -146,6 +178,42 @@ mod tests {
         let window = Window::of_sphere(&lens(), DVec3::new(0.1, 0.0, 0.0), 1.0);
         assert_eq!(window, Window::FULL);
         assert_eq!(window.pixels(UVec2::new(7, 5), 0.0), [-1.0, -1.0, 1.0, 1.0]);
+    }
+
+    #[test]
+    fn draws_hold_windows() {
+        let read = |draw: WindowDraw| {
+            let least = [draw.vertex >> 2 & 0x7fff, draw.vertex >> 17];
+            let greatest = [draw.instance & 0xffff, draw.instance >> 16];
+            assert_eq!(draw.vertex & 3, 0);
+            [least, greatest].map(|corner| corner.map(|steps| f64::from(steps) / 16384.0 - 1.0))
+        };
+        let size_px = UVec2::new(1280, 719);
+        assert_eq!(Window::EMPTY.draw(size_px, 1.0), None);
+        let full = Window::FULL.draw(size_px, 1.0).expect("it is seen");
+        assert_eq!(read(full), [[-1.0; 2], [1.0; 2]]);
+        for (min, max) in [
+            ([-0.3, 0.2], [0.1, 0.9]),
+            ([-3.0, -0.01], [-0.999, 0.01]),
+            ([0.9999, 0.9999], [2.0, 2.0]),
+        ] {
+            let (min, max) = (DVec2::from(min), DVec2::from(max));
+            let draw = Window { min, max }.draw(size_px, 1.0).expect("it is seen");
+            let [least, greatest] = read(draw);
+            for axis in 0..2 {
+                let px = 2.0 / f64::from(size_px[axis]);
+                let below = min[axis].max(-1.0) - least[axis];
+                let above = greatest[axis] - max[axis].min(1.0);
+                assert!(below >= px || least[axis] == -1.0, "{min} {max}");
+                assert!(above >= px || greatest[axis] == 1.0, "{min} {max}");
+                assert!(below.max(above) < 3.6 * px, "{min} {max}");
+            }
+        }
+        let outside = Window {
+            min: DVec2::new(1.1, 0.0),
+            max: DVec2::new(1.2, 0.1),
+        };
+        assert_eq!(outside.draw(size_px, 1.0), None);
     }
 
     #[test]

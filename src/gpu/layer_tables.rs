@@ -10,6 +10,7 @@ use crate::{
     frame::lens::LensKind,
     frame::placed::PatternPlace,
     gpu::filled_buffer::FilledBuffer as _,
+    gpu::pipelines::ResolveKey,
     gpu::planes::Planes,
     gpu::style_pipelines::StyleKey,
     gpu::style_table::{
@@ -86,12 +87,14 @@ impl LayerTables {
     pub(crate) fn style_key(
         &self,
         device: &wgpu::Device,
+        layer: usize,
         table: &StyleTable,
         lens: LensKind,
     ) -> StyleKey {
         let most_bytes = device.limits().max_uniform_buffer_binding_size;
         let fits = UNIFORM_STYLES_BYTES.max(UNIFORM_PLACES_BYTES) <= most_bytes;
         StyleKey {
+            code: self.layering.layers[layer].code.shape(),
             needs: table.needs,
             lens,
             few: table.few && self.places.len() <= MOST_UNIFORM_PLACES && fits,
@@ -139,7 +142,10 @@ pub(crate) struct LayerHead {
 /// How the sums of a layer are read, and the colours of its fills.
 pub(crate) struct LayerTable {
     pub head: wgpu::Buffer,
+    /// The first of them packed, if they can be.
+    pub packed: wgpu::Buffer,
     pub colors: wgpu::Buffer,
+    pub key: ResolveKey,
 }
 
 impl LayerTable {
@@ -157,6 +163,12 @@ impl LayerTable {
             .iter()
             .map(|fill| styled[fill.mesh].styles[fill.fill as usize].solid_color())
             .collect();
+        let packed = packed(&colors);
+        let key = ResolveKey {
+            code: layer.code.shape(),
+            few: packed.is_some(),
+        };
+        let packed = packed.unwrap_or_else(|| vec![[0; 2]; MOST_PACKED]);
         let buffer = |label, contents, usage| {
             device.filled_buffer(&wgpu::util::BufferInitDescriptor {
                 label: Some(label),
@@ -167,13 +179,41 @@ impl LayerTable {
         let (uniform, storage) = (wgpu::BufferUsages::UNIFORM, wgpu::BufferUsages::STORAGE);
         Self {
             head: buffer("globefill layer", bytemuck::bytes_of(&head), uniform),
+            packed: buffer("globefill packed", bytemuck::cast_slice(&packed), uniform),
             colors: buffer("globefill colors", bytemuck::cast_slice(&colors), storage),
+            key,
         }
     }
 
     fn bytes(&self) -> u64 {
-        self.head.size() + self.colors.size()
+        self.head.size() + self.packed.size() + self.colors.size()
     }
+}
+
+/// Most colours that are packed; as in resolve.wgsl.
+const MOST_PACKED: usize = 1024;
+
+/// Colours in 16 bits a channel, as many as the uniform holds. Nothing if they are more, or if some channel
+/// lies outside 0 … 1.
+fn packed(colors: &[[f32; 4]]) -> Option<Vec<[u32; 2]>> {
+    let ordinary = colors
+        .as_flattened()
+        .iter()
+        .all(|channel| (0.0..=1.0).contains(channel));
+    if colors.len() > MOST_PACKED || !ordinary {
+        return None;
+    }
+    // Off by half a step at most: 1 / 131 070.
+    let steps = |channel: f32| (channel * 65535.0).round() as u32;
+    let mut packed: Vec<[u32; 2]> = colors
+        .iter()
+        .map(|color| {
+            let [red, green, blue, alpha] = color.map(steps);
+            [red | green << 16, blue | alpha << 16]
+        })
+        .collect();
+    packed.resize(MOST_PACKED, [0; 2]);
+    Some(packed)
 }
 
 /// Fails unless the device has what is needed.

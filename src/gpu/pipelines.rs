@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use crate::{
-    frame::code::MAX_PLANES,
+    frame::code::{CodeShape, MAX_PLANES},
     gpu::fixed_function::{
         ADD, COPY_FORMAT, STENCIL_FORMAT, copy_format, counting_stencil, depth_stencil, painting,
     },
@@ -58,7 +58,15 @@ pub(crate) enum Key {
     /// Copies the host's depth, beside the stencil where it counts.
     CopyDepth { logarithmic: bool, stencil: bool },
     /// Colours the host's target.
-    Resolve,
+    Resolve(ResolveKey),
+}
+
+/// What a pipeline that resolves plain colours is made for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct ResolveKey {
+    pub code: CodeShape,
+    /// Whether colours are read packed.
+    pub few: bool,
 }
 
 /// Layouts, shader modules and the pipelines made so far.
@@ -70,6 +78,7 @@ pub(crate) struct Pipelines {
     depth_layout: wgpu::BindGroupLayout,
     /// The same with the host's logarithm.
     log_depth_layout: wgpu::BindGroupLayout,
+    resolve_shader: wgpu::ShaderModule,
     count_shader: wgpu::ShaderModule,
     /// For depth with a far plane, where the device can draw that.
     unclipped_count_shader: Option<wgpu::ShaderModule>,
@@ -96,7 +105,7 @@ impl Pipelines {
             has_dynamic_offset: false,
             min_binding_size: None,
         };
-        let mut resolve_bindings = vec![uniform, storage];
+        let mut resolve_bindings = vec![uniform, uniform, storage];
         resolve_bindings.extend(vec![float; plane_textures]);
         let (vertex, fragment) = (wgpu::ShaderStages::VERTEX, wgpu::ShaderStages::FRAGMENT);
         Self {
@@ -107,7 +116,7 @@ impl Pipelines {
             resolve_layout: layout(
                 device,
                 "globefill resolve",
-                fragment | wgpu::ShaderStages::COMPUTE,
+                vertex | fragment | wgpu::ShaderStages::COMPUTE,
                 &resolve_bindings,
             ),
             depth_layout: layout(
@@ -121,6 +130,11 @@ impl Pipelines {
                 "globefill logarithmic depth",
                 fragment,
                 &[texture(wgpu::TextureSampleType::Depth), uniform],
+            ),
+            resolve_shader: shader(
+                device,
+                "globefill resolve",
+                shaders::resolve(options.sample_count),
             ),
             count_shader: shader(device, "globefill count", shaders::count(false)),
             unclipped_count_shader: device
@@ -218,10 +232,12 @@ impl Pipelines {
                 recipe.depth_stencil = Some(state);
                 recipe.build(device, self.options.sample_count)
             }
-            Key::Resolve => {
-                let source = shaders::resolve(self.options.sample_count);
-                let module = shader(device, "globefill resolve", source);
-                let mut recipe = self.screen_recipe(&module, &self.resolve_layout);
+            Key::Resolve(ResolveKey { code, few }) => {
+                let mut recipe = self.screen_recipe(&self.resolve_shader, &self.resolve_layout);
+                recipe.vertex = "vs_resolve";
+                recipe.primitive.topology = wgpu::PrimitiveTopology::TriangleStrip;
+                recipe.constants = code.constants().to_vec();
+                recipe.constants.push(("FEW", u8::from(few).into()));
                 let entry = if self.options.sample_count > 1 {
                     "fs_resolve_sample"
                 } else {

@@ -5,14 +5,15 @@ use std::collections::HashMap;
 use glam::UVec2;
 
 use crate::{
-    frame::lens::LensKind, gpu::edge_pipelines::EdgePipelines, gpu::edge_view::edge_target,
-    gpu::pipelines::layout, gpu::style_record::Needs, gpu::surface_binding::surface_layout,
-    options::RendererOptions, shaders,
+    frame::code::CodeShape, frame::lens::LensKind, gpu::edge_pipelines::EdgePipelines,
+    gpu::edge_view::edge_target, gpu::pipelines::layout, gpu::style_record::Needs,
+    gpu::surface_binding::surface_layout, options::RendererOptions, shaders,
 };
 
 /// What a pipeline is made for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct StyleKey {
+    pub code: CodeShape,
     pub needs: Needs,
     /// Whether styles and places are few enough for uniforms.
     pub few: bool,
@@ -137,7 +138,8 @@ impl StylePipelines {
             "fs_styled"
         };
         let [parallel, logarithmic] = key.lens.constants();
-        let constants = [("NEEDS", f64::from(key.needs)), parallel, logarithmic];
+        let mut constants = vec![("NEEDS", f64::from(key.needs)), parallel, logarithmic];
+        constants.extend(key.code.constants());
         let options = wgpu::PipelineCompilationOptions {
             constants: &constants,
             ..Default::default()

@@ -120,7 +120,7 @@ impl StyleView {
         let styled = tables.styles.iter().enumerate().map(|(layer, table)| {
             let table = table.as_ref()?;
             let edges = self.edges.as_ref().and_then(|edges| edges.target(layer));
-            let key = tables.style_key(device, table, self.lens);
+            let key = tables.style_key(device, layer, table, self.lens);
             // Uniforms have a largest size.
             let bound = |buffer, few_bytes| {
                 wgpu::BindingResource::Buffer(wgpu::BufferBinding {

@@ -3,8 +3,13 @@
 use glam::UVec2;
 
 use crate::{
-    frame::code::MAX_PLANES, frame::layers::Counting, gpu::fixed_function::copy_format,
-    gpu::layer_tables::LayerTable, gpu::pipelines::Pipelines, gpu::planes::Planes, pick::Pick,
+    frame::code::MAX_PLANES,
+    frame::layers::Counting,
+    gpu::fixed_function::copy_format,
+    gpu::layer_tables::LayerTable,
+    gpu::pipelines::{Pipelines, ResolveKey},
+    gpu::planes::Planes,
+    pick::Pick,
 };
 
 /// What targets depend on.
@@ -42,6 +47,7 @@ pub(crate) struct Targets {
 pub(crate) struct LayerTarget {
     pub planes: Vec<wgpu::TextureView>,
     pub resolve_group: wgpu::BindGroup,
+    pub resolve_key: ResolveKey,
 }
 
 impl Targets {
@@ -89,6 +95,7 @@ impl Targets {
                 LayerTarget {
                     planes,
                     resolve_group,
+                    resolve_key: table.key,
                 }
             })
             .collect();
@@ -112,7 +119,7 @@ fn resolve_group(
     table: &LayerTable,
     planes: &[wgpu::TextureView],
 ) -> wgpu::BindGroup {
-    let tables = [&table.head, &table.colors].map(wgpu::Buffer::as_entire_binding);
+    let tables = [&table.head, &table.packed, &table.colors].map(wgpu::Buffer::as_entire_binding);
     let mut entries: Vec<_> = (0..)
         .zip(tables)
         .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource })
@@ -120,7 +127,7 @@ fn resolve_group(
     // The shader masks planes that the code does not have; any texture does for them.
     let bound = if sample_count > 1 { MAX_PLANES } else { 1 };
     entries.extend((0..bound).map(|plane| wgpu::BindGroupEntry {
-        binding: plane + 2,
+        binding: plane + 3,
         resource: wgpu::BindingResource::TextureView(
             &planes[(plane as usize).min(planes.len() - 1)],
         ),

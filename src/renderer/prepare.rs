@@ -1,6 +1,8 @@
 //! Preparing a frame: layers, selection, targets, pipelines, upload.
 
-use super::{MeshId, Renderer, Resident};
+use glam::UVec2;
+
+use super::{MeshId, Renderer, Resident, windows::layer_window};
 use crate::{
     error::RendererError,
     frame::code::PlaneSums,
@@ -11,6 +13,7 @@ use crate::{
     frame::select::{LayerDraws, Selection},
     frame::sight::Sight,
     frame::volumes::volumes,
+    frame::window::WindowDraw,
     frame_stats::FrameStats,
     gpu::count,
     gpu::count_cost::cost,
@@ -60,6 +63,7 @@ impl Renderer {
         self.ensure_targets(view, &prepared, counting)?;
         self.ensure_pipelines(&prepared, &selections, counting)?;
         let place_bytes = self.prepare_styles(queue, view, &prepared, &selections, counting);
+        view.windows = self.windows(counting, &selections, frame.size_px)?;
         let mesh_bytes = self.upload(queue, view, selections);
         prepared.stats.upload_bytes = table_bytes + place_bytes + mesh_bytes;
         self.fill_stats(view, &mut prepared);
@@ -255,11 +259,30 @@ impl Renderer {
                 logarithmic: prepared.logarithm.is_some(),
                 stencil: copied == Copied::WithStencil,
             });
-            for key in keys.into_iter().chain(copy).chain([Key::Resolve]) {
+            let resolve = Key::Resolve(self.layers(counting)?.tables[index].key);
+            for key in keys.into_iter().chain(copy).chain([resolve]) {
                 self.pipelines.ensure(&self.device, key);
             }
         }
         Ok(())
+    }
+
+    /// Where each layer is resolved that plain colours do for.
+    fn windows(
+        &self,
+        counting: Counting,
+        selections: &[Selected],
+        size_px: UVec2,
+    ) -> Result<Vec<Option<WindowDraw>>, RendererError> {
+        let layers = self.layers(counting)?.styles.iter().enumerate();
+        let windows = layers.map(|(layer, styles)| {
+            if styles.is_some() {
+                return None;
+            }
+            // Pixels at a fill's edge may take what their neighbours show.
+            layer_window(&self.meshes, selections, layer, 0.0).draw(size_px, 1.0)
+        });
+        Ok(windows.collect())
     }
 
     /// Uploads what the view's selection changes; returns the bytes.
@@ -319,14 +342,15 @@ impl Renderer {
             .targets
             .as_ref()
             .map_or(0, |targets| targets.layers.len() as u32);
-        // Resolve draws a triangle a layer, or one for each array of images; a copy of the depth is another.
+        // Resolve draws a window a layer, if it shows any, or one for each array of images; a copy of the
+        // depth is another.
         for layer in 0..stats.layers as usize {
             let styled = view
                 .styles
                 .as_ref()
                 .and_then(|styles| styles.draws_of(layer));
             stats.styled_layers += u32::from(styled.is_some());
-            stats.draws += styled.unwrap_or(1);
+            stats.draws += styled.unwrap_or(u32::from(view.windows[layer].is_some()));
         }
         if let Some(styles) = &view.styles {
             stats.edge_passes = styles.edge_cost.passes;

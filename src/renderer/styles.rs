@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use glam::{DVec2, UVec2};
 
-use super::{MeshId, Renderer, Resident, prepare::Selected};
+use super::{MeshId, Renderer, Resident, prepare::Selected, windows::layer_window};
 use crate::{
     error::{RendererError, StyleError},
     extents::Extents,
@@ -193,14 +193,16 @@ impl Renderer {
             let edges = EdgePipelines::new(device, &self.pipelines, surface_layout, self.options);
             pipelines.edges = Some(edges);
         }
-        for table in tables.styles.iter().flatten() {
-            pipelines.ensure(device, tables.style_key(device, table, sight.kind));
+        for (layer, table) in tables.styles.iter().enumerate() {
+            if let Some(table) = table {
+                pipelines.ensure(device, tables.style_key(device, layer, table, sight.kind));
+            }
         }
         let frame = &prepared.frame;
         let reference = Reference::new(sight.ellipsoid, sight.eye_ecef_m);
         let depth = self.options.depth;
         let mut uniform = SightUniform::new(sight, &reference, depth, frame.size_px);
-        uniform.window = window(&self.meshes, tables, selections, frame.size_px);
+        uniform.window = styled_window(&self.meshes, tables, selections, frame.size_px);
         let subjects: Vec<EdgeSubject<'_>> = selections
             .iter()
             .map(|selected| EdgeSubject {
@@ -320,7 +322,7 @@ fn image_place(mesh: &FillMesh, fill: u32, image: &ImageFill) -> PatternPlace {
 }
 
 /// What holds all fills of the layers that have styles, and what their strokes add.
-fn window(
+fn styled_window(
     meshes: &BTreeMap<MeshId, Resident>,
     tables: &LayerTables,
     selections: &[Selected],
@@ -334,23 +336,10 @@ fn window(
     let [reach_m, reach_px] = reaches.fold([0.0_f32; 2], |most, reach| {
         std::array::from_fn(|unit| most[unit].max(reach[unit]))
     });
-    let mut window = Window::EMPTY;
-    for Selected {
-        id,
-        sight,
-        selection,
-        ..
-    } in selections
-    {
-        let pieces = &meshes[id].mesh.pieces;
-        let layers = selection.layers.iter().zip(&tables.styles);
-        for (draws, _) in layers.filter(|(_, styles)| styles.is_some()) {
-            let codes = pieces.iter().zip(&draws.codes[1..]);
-            for (piece, _) in codes.filter(|&(_, &code)| code != 0) {
-                window = window.joined(sight.window_of(&piece.bounds, f64::from(reach_m)));
-            }
-        }
-        window = window.common(sight.globe_window());
-    }
+    let layers = (0..).zip(&tables.styles);
+    let styled = layers.filter(|(_, styles)| styles.is_some());
+    let window = styled.fold(Window::EMPTY, |window, (layer, _)| {
+        window.joined(layer_window(meshes, selections, layer, f64::from(reach_m)))
+    });
     window.pixels(size_px, f64::from(reach_px) + 1.0)
 }
