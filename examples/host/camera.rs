@@ -127,7 +127,27 @@ impl Eye {
             elevation.height_m(viewpoint.foot.canonical())
         });
         let highest_m = elevation.map_or(0.0, Elevation::highest_m);
-        let (near_m, far_m) = depth_range_m(ellipsoid, viewpoint, ground_m, highest_m);
+        let range_m = depth_range_m(ellipsoid, viewpoint, ground_m, highest_m);
+        Self::within(ellipsoid, viewpoint, shot, range_m)
+    }
+
+    /// The same over ground that is as high everywhere.
+    pub fn over_level(
+        ellipsoid: &Ellipsoid,
+        ground_m: f64,
+        viewpoint: &Viewpoint,
+        shot: Shot,
+    ) -> Self {
+        let range_m = depth_range_m(ellipsoid, viewpoint, ground_m, ground_m);
+        Self::within(ellipsoid, viewpoint, shot, range_m)
+    }
+
+    fn within(
+        ellipsoid: &Ellipsoid,
+        viewpoint: &Viewpoint,
+        shot: Shot,
+        (near_m, far_m): (f64, f64),
+    ) -> Self {
         let lens = Lens {
             fov_deg: shot.fov_deg,
             size_px: shot.size_px,

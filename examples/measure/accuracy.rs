@@ -17,7 +17,6 @@ pub struct Judge {
     oracle: Oracle,
     surface: Surface,
     expected: Vec<u32>,
-    budget_px: f64,
 }
 
 /// What is wrong with a picture.
@@ -34,7 +33,6 @@ pub struct PictureError {
 }
 
 impl Judge {
-    /// Over the bare ellipsoid.
     pub fn new(stage: &Stage) -> Self {
         let oracle = Oracle::new(&stage.scene.regions, stage.ellipsoid);
         let (view, lens) = (stage.scene.viewpoint, stage.eye.lens);
@@ -43,7 +41,11 @@ impl Judge {
             ..Pose::nadir(view.foot.lon_deg, view.foot.lat_deg, view.height_m)
                 .turned(view.heading_deg, view.pitch_deg)
         };
-        let cast = Cast::new(&oracle.figure, &pose, lens.size_px, 1, Terrain::Bare);
+        let terrain = match stage.scene.ground_m {
+            0.0 => Terrain::Bare,
+            height_m => Terrain::Plateau { height_m },
+        };
+        let cast = Cast::new(&oracle.figure, &pose, lens.size_px, 1, terrain);
         let range = DepthRange::ReversedInfinite {
             near_m: lens.near_m,
         };
@@ -52,18 +54,18 @@ impl Judge {
             expected: expected_ids(&oracle, &surface),
             oracle,
             surface,
-            budget_px: stage.frame.pixel_error,
         }
     }
 
-    /// Judges the fill of every pixel, counted from 1; 0 for none.
-    pub fn error_of(&self, drawn: &[u32]) -> PictureError {
+    /// Judges the fill of every pixel, counted from 1; 0 for none. Wrong is what is off by more
+    /// than `budget_px`.
+    pub fn error_of(&self, drawn: &[u32], budget_px: f64) -> PictureError {
         let score = judge(
             &self.oracle,
             &self.surface,
             &self.expected,
             drawn,
-            self.budget_px,
+            budget_px,
         );
         PictureError {
             wrong_px: score.wrong + score.sky,
@@ -95,12 +97,13 @@ impl Judge {
         if fill >= self.oracle.region_count() {
             return f64::INFINITY;
         }
-        let edges = self.oracle.boundary(fill);
+        let figure = &self.oracle.figure;
+        let foot_m = figure.ecef(figure.geodetic(point_m).0, 0.0);
         let mut nearest_m = f64::INFINITY;
-        for edge in edges {
-            let at_least_m = (edge.middle_m - point_m).length() - edge.radius_m;
+        for edge in self.oracle.boundary(fill) {
+            let at_least_m = (edge.middle_m - foot_m).length() - edge.radius_m;
             if at_least_m < nearest_m {
-                nearest_m = nearest_m.min(edge.nearest(&self.oracle.figure, point_m).0);
+                nearest_m = nearest_m.min(edge.nearest(figure, foot_m).0);
             }
         }
         nearest_m

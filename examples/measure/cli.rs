@@ -15,7 +15,7 @@ use crate::{
 #[command(version)]
 pub struct Arguments {
     /// Scenes or groups of them: paper (110m-all … 50m-horizon), fills (fills-1 … fills-10000), depth
-    /// (overlapping, separate), oblique, footprints.
+    /// (overlapping, separate), oblique, footprints; and sweep: run time against error.
     #[arg(long, num_args = 1.., default_value = "paper")]
     pub scene: Vec<String>,
     /// Ways of filling.
@@ -36,6 +36,9 @@ pub struct Arguments {
     /// Write all rows as JSON.
     #[arg(long)]
     pub json: Option<PathBuf>,
+    /// Write all rows as CSV into this directory, and plots of what was swept.
+    #[arg(long)]
+    pub plot: Option<PathBuf>,
 }
 
 fn parse_budget(text: &str) -> Result<f64, String> {

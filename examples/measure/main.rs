@@ -6,21 +6,26 @@ mod canvas;
 mod cli;
 #[path = "../../tests/common/mod.rs"]
 mod common;
+mod csv;
 #[allow(dead_code, reason = "images are for another example")]
 #[path = "../render/drawing.rs"]
 mod drawing;
+mod heat;
 #[path = "../host/mod.rs"]
 mod host;
 #[path = "../render/invocations.rs"]
 mod invocations;
+mod plots;
 mod processor_time;
 mod race;
 mod row;
 mod scene;
 mod scenes;
 mod session;
+mod settings;
 mod stage;
 mod statistics;
+mod sweeps;
 mod table;
 mod technique;
 mod techniques;

@@ -1,11 +1,12 @@
-//! Techniques drawing the same scene in turn.
+//! The entries of a heat drawing in turn.
 
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use crate::{
     accuracy::{Judge, PictureError},
     canvas::Paint,
     common::draw::id_of_color,
+    heat::{Entry, Heat},
     host::{
         gpu::Gpu,
         progress::Progress,
@@ -19,9 +20,14 @@ use crate::{
     technique::{Cost, Technique, TechniqueName},
 };
 
-/// One technique and what its frames took.
-struct Contender {
-    name: TechniqueName,
+/// Who has drawn for so long has drawn enough, once there are [`LEAST_FRAMES`].
+const ENOUGH: Duration = Duration::from_secs(20);
+const LEAST_FRAMES: usize = 3;
+
+/// One entry and what its frames took.
+struct Contender<'a> {
+    entry: &'a Entry,
+    stage: &'a Stage,
     technique: Box<dyn Technique>,
     wall_ms: Vec<f64>,
     /// Empty where the system does not tell.
@@ -29,66 +35,75 @@ struct Contender {
     cost: Cost,
 }
 
-/// Times `frames` frames of each technique, one of each in turn: what slows the machine for a while slows
-/// them alike. Then counts their work, and judges their pictures if there is a judge.
+/// Times `frames` frames of each entry, one of each in turn: what slows the machine for a while slows them
+/// alike. Then counts their work, and judges their pictures if there is a judge. `stages` are the entries'.
 pub fn run(
     gpu: &Gpu,
-    stage: &Stage,
-    names: &[TechniqueName],
+    heat: &Heat,
+    stages: &[&Stage],
     frames: u32,
     judge: Option<&Judge>,
     progress: &Progress,
 ) -> Result<Vec<Row>, String> {
-    let mut contenders = Vec::new();
-    let mut rows = Vec::new();
-    for &name in names {
-        progress.step("preparing techniques");
-        match name.make(gpu, stage, Paint::Colors) {
-            Ok(technique) => contenders.push(Contender {
-                name,
-                technique,
-                wall_ms: Vec::new(),
-                processor_ms: Vec::new(),
-                cost: Cost::default(),
-            }),
-            Err(reason) => rows.push(row(stage, name, Err(reason))),
-        }
-    }
+    progress.step("preparing techniques");
+    let mut contenders: Vec<Result<Contender<'_>, String>> = heat
+        .entries
+        .iter()
+        .zip(stages)
+        .map(|(entry, &stage)| Contender::new(gpu, entry, stage))
+        .collect();
     progress.step("timing frames");
     progress.count(WARM_UP + frames);
     for frame in 0..WARM_UP + frames {
-        for contender in &mut contenders {
-            contender.draw(gpu, stage, frame >= WARM_UP)?;
+        for contender in contenders.iter_mut().flatten() {
+            contender.draw(gpu, frame >= WARM_UP)?;
         }
         progress.advance();
     }
+    let is_globe = |contender: &&Contender<'_>| contender.entry.technique == TechniqueName::Globe;
     let globe = contenders
         .iter()
-        .find(|contender| contender.name == TechniqueName::Globe)
+        .flatten()
+        .find(is_globe)
         .map(|globe| (globe.wall_ms.clone(), globe.processor_ms.clone()));
     progress.step("judging pictures");
-    for contender in contenders {
-        let name = contender.name;
-        let measured = contender.measured(gpu, stage, globe.as_ref(), judge)?;
-        rows.push(row(stage, name, Ok(measured)));
+    let mut rows = Vec::new();
+    for ((contender, entry), stage) in contenders.into_iter().zip(&heat.entries).zip(stages) {
+        let outcome = match contender {
+            Ok(contender) => Ok(contender.measured(gpu, globe.as_ref(), judge)?),
+            Err(reason) => Err(reason),
+        };
+        rows.push(Row {
+            scene: entry.scene.name.clone(),
+            technique: entry.technique,
+            variant: entry.variant.clone(),
+            build_ms: stage.build_ms,
+            outcome,
+        });
     }
-    rows.sort_by_key(|row| row.technique);
     Ok(rows)
 }
 
-fn row(stage: &Stage, technique: TechniqueName, outcome: Result<Measured, String>) -> Row {
-    Row {
-        scene: stage.scene.name.clone(),
-        technique,
-        build_ms: stage.build_ms,
-        outcome,
+impl<'a> Contender<'a> {
+    /// Or why it cannot draw the stage.
+    fn new(gpu: &Gpu, entry: &'a Entry, stage: &'a Stage) -> Result<Self, String> {
+        Ok(Self {
+            entry,
+            stage,
+            technique: entry.technique.make(gpu, stage, Paint::Colors)?,
+            wall_ms: Vec::new(),
+            processor_ms: Vec::new(),
+            cost: Cost::default(),
+        })
     }
-}
 
-impl Contender {
-    fn draw(&mut self, gpu: &Gpu, stage: &Stage, timed: bool) -> Result<(), String> {
+    fn draw(&mut self, gpu: &Gpu, timed: bool) -> Result<(), String> {
+        let spent_ms: f64 = self.wall_ms.iter().sum();
+        if self.wall_ms.len() >= LEAST_FRAMES && spent_ms > ENOUGH.as_secs_f64() * 1e3 {
+            return Ok(());
+        }
         let (processor, start) = (ProcessorTime::now(), Instant::now());
-        self.cost = self.technique.draw(gpu, stage, None)?;
+        self.cost = self.technique.draw(gpu, self.stage, None)?;
         let wall_ms = milliseconds_since(start);
         let processor_ms = processor.elapsed_ms();
         if timed {
@@ -101,7 +116,6 @@ impl Contender {
     fn measured(
         mut self,
         gpu: &Gpu,
-        stage: &Stage,
         globe: Option<&(Vec<f64>, Vec<f64>)>,
         judge: Option<&Judge>,
     ) -> Result<Measured, String> {
@@ -112,9 +126,13 @@ impl Contender {
         };
         let counted = match &queries {
             Some(queries) => {
-                self.technique.draw(gpu, stage, Some(queries))?;
+                self.technique.draw(gpu, self.stage, Some(queries))?;
                 Some(queries.read(gpu)?)
             }
+            None => None,
+        };
+        let error = match judge {
+            Some(judge) => self.error(gpu, judge)?,
             None => None,
         };
         Ok(Measured {
@@ -128,30 +146,25 @@ impl Contender {
             vertex_invocations: counted.as_ref().map(|counted| counted.vertex),
             fragment_invocations: counted.as_ref().map(|counted| counted.fragment),
             cost: self.cost,
-            error: match judge {
-                Some(judge) => error(gpu, stage, self.name, judge)?,
-                None => None,
-            },
+            error,
         })
     }
-}
 
-/// `None` where the picture has no numbers of fills.
-fn error(
-    gpu: &Gpu,
-    stage: &Stage,
-    name: TechniqueName,
-    judge: &Judge,
-) -> Result<Option<PictureError>, String> {
-    if name == TechniqueName::Globe {
-        return Ok(None);
+    /// `None` where the picture has no numbers of fills.
+    fn error(&self, gpu: &Gpu, judge: &Judge) -> Result<Option<PictureError>, String> {
+        if self.entry.technique == TechniqueName::Globe {
+            return Ok(None);
+        }
+        let made = self.entry.technique.make(gpu, self.stage, Paint::Numbers);
+        let Ok(mut technique) = made else {
+            return Ok(None);
+        };
+        technique.draw(gpu, self.stage, None)?;
+        let texels = gpu.read_texture(technique.color())?;
+        let (texels, _) = texels.as_chunks::<4>();
+        let drawn: Vec<u32> = texels.iter().copied().map(id_of_color).collect();
+        Ok(Some(
+            judge.error_of(&drawn, self.entry.settings.pixel_error),
+        ))
     }
-    let Ok(mut technique) = name.make(gpu, stage, Paint::Numbers) else {
-        return Ok(None);
-    };
-    technique.draw(gpu, stage, None)?;
-    let texels = gpu.read_texture(technique.color())?;
-    let (texels, _) = texels.as_chunks::<4>();
-    let drawn: Vec<u32> = texels.iter().copied().map(id_of_color).collect();
-    Ok(Some(judge.error_of(&drawn)))
 }

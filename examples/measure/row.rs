@@ -4,6 +4,7 @@ use serde_json::{Map, Value, json};
 
 use crate::{
     accuracy::PictureError,
+    heat::Variant,
     technique::{Cost, TechniqueName},
 };
 
@@ -12,6 +13,7 @@ use crate::{
 pub struct Row {
     pub scene: String,
     pub technique: TechniqueName,
+    pub variant: Option<Variant>,
     /// How long the scene's mesh took to make, milliseconds.
     pub build_ms: f64,
     pub outcome: Result<Measured, String>,
@@ -39,6 +41,11 @@ impl Row {
         let mut row = Map::new();
         row.insert("scene".into(), json!(self.scene));
         row.insert("technique".into(), json!(self.technique.to_string()));
+        if let Some(variant) = &self.variant {
+            row.insert("sweep".into(), json!(variant.sweep));
+            row.insert("value".into(), json!(variant.value));
+            row.insert("is_default".into(), json!(variant.is_default));
+        }
         row.insert("build_ms".into(), json!(self.build_ms));
         match &self.outcome {
             Ok(measured) => {
@@ -67,6 +74,7 @@ impl Measured {
             "extra_cpu_ms": self.extra_cpu_ms,
             "vertex_invocations": self.vertex_invocations,
             "fragment_invocations": self.fragment_invocations,
+            "count": self.cost.count.map(|count| format!("{count:?}").to_lowercase()),
             "draws": self.cost.draws,
             "passes": self.cost.passes,
             "upload_bytes": self.cost.upload_bytes,
@@ -88,6 +96,7 @@ mod tests {
         let row = |outcome| Row {
             scene: "110m-all".into(),
             technique: TechniqueName::Winding,
+            variant: None,
             build_ms: 1.0,
             outcome,
         };

@@ -17,6 +17,10 @@ pub struct Scene {
     /// [`globefill::MeshOptions::tolerance_m`].
     pub tolerance_m: f64,
     pub sensors: Option<Sensors>,
+    /// How high above the ellipsoid the ground lies, everywhere, metres.
+    pub ground_m: f64,
+    /// What positions in single precision are relative to.
+    pub origin: LonLat,
 }
 
 /// Sensors of one kind that look straight down.
@@ -37,6 +41,8 @@ impl Scene {
             regions,
             tolerance_m: 5.0,
             sensors: None,
+            ground_m: 0.0,
+            origin: viewpoint.foot,
         }
     }
 

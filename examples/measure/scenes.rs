@@ -50,7 +50,7 @@ pub fn named(word: &str) -> Result<Vec<Scene>, String> {
     if scenes.is_empty() {
         return Err(format!(
             "--scene {word}: no such scene; there are paper (110m-all, 110m-country, 110m-horizon, \
-             50m-…), fills (fills-N), depth (overlapping, separate), oblique, footprints"
+             50m-…), fills (fills-N), depth (overlapping, separate), oblique, footprints, sweep"
         ));
     }
     Ok(scenes)

@@ -2,7 +2,6 @@
 
 use std::time::Instant;
 
-use glam::UVec2;
 use globefill::{DepthConvention, Ellipsoid, FillMesh, Frame, HeightRange, MeshOptions};
 
 use crate::{
@@ -13,6 +12,7 @@ use crate::{
         times::milliseconds_since,
     },
     scene::Scene,
+    settings::Settings,
 };
 
 /// Earth's terrain: volumes that need not know the ground reach from the Dead Sea to above Everest.
@@ -24,6 +24,8 @@ const TERRAIN: HeightRange = HeightRange {
 /// A scene, ready to be drawn.
 pub struct Stage {
     pub scene: Scene,
+    pub settings: Settings,
+    /// What regions refer to.
     pub ellipsoid: Ellipsoid,
     pub eye: Eye,
     pub ground: Ground,
@@ -34,7 +36,12 @@ pub struct Stage {
 }
 
 impl Stage {
-    pub fn new(gpu: &Gpu, scene: Scene, size_px: UVec2, pixel_error: f64) -> Result<Self, String> {
+    pub fn new(gpu: &Gpu, scene: &Scene, settings: Settings) -> Result<Self, String> {
+        let Settings {
+            size_px,
+            pixel_error,
+            ..
+        } = settings;
         let ellipsoid = Ellipsoid::WGS84;
         let start = Instant::now();
         let options = MeshOptions {
@@ -49,19 +56,29 @@ impl Stage {
             size_px,
             depth: DepthConvention::Reversed,
         };
-        let eye = Eye::above(&ellipsoid, None, &scene.viewpoint, shot);
+        let eye = Eye::over_level(&ellipsoid, scene.ground_m, &scene.viewpoint, shot);
         Ok(Self {
-            ground: Ground::new(gpu, &ellipsoid, None, &eye)?,
+            ground: Ground::new(gpu, &ground(&ellipsoid, scene), None, &eye)?,
             frame: Frame {
                 terrain: TERRAIN,
                 pixel_error,
                 ..Frame::new(eye.camera, size_px)
             },
-            scene,
+            scene: scene.clone(),
+            settings,
             ellipsoid,
             eye,
             mesh,
             build_ms,
         })
+    }
+}
+
+/// The ellipsoid that is as high everywhere, within some millimetres a kilometre: half the flattening's
+/// square, of it.
+fn ground(ellipsoid: &Ellipsoid, scene: &Scene) -> Ellipsoid {
+    Ellipsoid {
+        a_m: ellipsoid.a_m + scene.ground_m,
+        b_m: ellipsoid.b_m + scene.ground_m,
     }
 }

@@ -28,9 +28,13 @@ pub fn heading() -> String {
 
 pub fn line(row: &Row) -> String {
     let start = format!("{:<14} {:<9}", row.scene, row.technique);
+    let end = row.variant.as_ref().map_or(String::new(), |variant| {
+        let mark = if variant.is_default { " (default)" } else { "" };
+        format!("  {} {}{mark}", variant.sweep, variant.value)
+    });
     match &row.outcome {
-        Ok(measured) => format!("{start}{}", columns(measured)),
-        Err(reason) => format!("{start} refused: {reason}"),
+        Ok(measured) => format!("{start}{}{end}", columns(measured)),
+        Err(reason) => format!("{start} refused: {reason}{end}"),
     }
 }
 

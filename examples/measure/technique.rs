@@ -3,6 +3,7 @@
 use std::fmt;
 
 use clap::ValueEnum;
+use globefill::CountTechnique;
 
 use crate::{
     canvas::Paint,
@@ -56,6 +57,8 @@ pub struct Cost {
     pub upload_bytes: u64,
     /// Buffers that hold the fills.
     pub gpu_bytes: u64,
+    /// How the crate counted, which may be another way than asked for.
+    pub count: Option<CountTechnique>,
 }
 
 /// A way of filling, ready to draw one stage.

@@ -1,7 +1,5 @@
 //! The vertex-shader algorithm of old: a vertex and an index buffer with both ends of every column.
 
-use bytemuck::{Pod, Zeroable};
-use glam::DVec3;
 use globefill::wgpu::{self, util::DeviceExt};
 
 use super::{
@@ -19,14 +17,6 @@ use crate::{
 
 const SHADER: &str = include_str!("doubled.wgsl");
 
-/// Metres from the origin; 2 · fill, + 1 at the top.
-#[repr(C)]
-#[derive(Clone, Copy, Pod, Zeroable)]
-struct Vertex {
-    position: [f32; 3],
-    fill_and_end: u32,
-}
-
 pub struct Doubled {
     sums: VolumeSums,
     pipeline: wgpu::RenderPipeline,
@@ -40,12 +30,9 @@ impl Doubled {
     pub fn new(gpu: &Gpu, stage: &Stage, paint: Paint) -> Result<Self, String> {
         let sums = VolumeSums::new(gpu, stage, paint)?;
         let (vertices, indices) = mesh(stage);
-        let layout = wgpu::VertexBufferLayout {
-            array_stride: size_of::<Vertex>() as u64,
-            step_mode: wgpu::VertexStepMode::Vertex,
-            attributes: &wgpu::vertex_attr_array![0 => Float32x3, 1 => Uint32],
-        };
-        let pipeline = sums.pipeline(gpu, SHADER, &[Some(layout)]);
+        let encoding = stage.settings.yardstick.encoding;
+        let source = [encoding.source(), SHADER].concat();
+        let pipeline = sums.pipeline(gpu, &source, &[Some(encoding.layout())]);
         let buffer = |contents: &[u8], usage| {
             gpu.device
                 .create_buffer_init(&wgpu::util::BufferInitDescriptor {
@@ -65,20 +52,20 @@ impl Doubled {
     }
 }
 
-fn mesh(stage: &Stage) -> (Vec<Vertex>, Vec<u32>) {
+/// Vertices as the encoding stores them, and triangles.
+fn mesh(stage: &Stage) -> (Vec<u32>, Vec<u32>) {
     let (origin_m, top_m) = (eye_uniform::origin_m(stage), eye_uniform::top_m(stage));
-    let (mut vertices, mut indices) = (Vec::new(), Vec::new());
+    let normal_scale = eye_uniform::normal_scale(stage);
+    let encoding = stage.settings.yardstick.encoding;
+    let (mut vertices, mut indices, mut first) = (Vec::new(), Vec::new(), 0);
     for (fill, faces) in (0..).zip(fill_faces::all(&stage.mesh)) {
-        let first = vertices.len() as u32;
         for &position_m in &faces.vertices_m {
-            let raised_m = position_m + stage.ellipsoid.normal_at_surface(position_m) * top_m;
-            let vertex = |position_m: DVec3, end: u32| Vertex {
-                position: (position_m - origin_m).as_vec3().to_array(),
-                fill_and_end: 2 * fill + end,
-            };
-            vertices.extend([vertex(position_m, 0), vertex(raised_m, 1)]);
+            let raised_m = position_m + (position_m * normal_scale).normalize() * top_m;
+            encoding.push(&mut vertices, position_m, origin_m, 2 * fill);
+            encoding.push(&mut vertices, raised_m, origin_m, 2 * fill + 1);
         }
         indices.extend(corners(&faces).map(|corner| first + corner));
+        first += 2 * faces.vertices_m.len() as u32;
     }
     (vertices, indices)
 }
@@ -129,6 +116,8 @@ impl Technique for Doubled {
 #[cfg(test)]
 mod tests {
     use std::collections::HashMap;
+
+    use glam::DVec3;
 
     use super::*;
 

@@ -7,7 +7,14 @@ struct Eye {
     from_eye: vec4<f32>,
     // That origin, ECEF m.
     origin: vec4<f32>,
-    // Surface position times this is along the geodetic normal.
+    // The eye as two numbers that add up, ECEF m.
+    high: vec4<f32>,
+    low: vec4<f32>,
+    // The eye in steps of 1/128 m, and what they leave over, in 2^-17 m and in metres.
+    steps: vec4<i32>,
+    fraction: vec4<i32>,
+    remainder: vec4<f32>,
+    // Surface position times this is along the normal that columns stand on.
     normal_scale: vec4<f32>,
     // x: top, m. y: bottom, m. z: how far the bottom is pushed down per metre from the eye. w: the most of it, m.
     heights: vec4<f32>,
@@ -17,8 +24,8 @@ struct Eye {
 
 @group(0) @binding(0) var<uniform> eye: Eye;
 
-fn normal_at(position: vec3<f32>) -> vec3<f32> {
-    return normalize((eye.origin.xyz + position) * eye.normal_scale.xyz);
+fn normal_at(ecef: vec3<f32>) -> vec3<f32> {
+    return normalize(ecef * eye.normal_scale.xyz);
 }
 
 // How far below the ellipsoid the bottom lies, negative.

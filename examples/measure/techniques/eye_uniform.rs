@@ -4,7 +4,12 @@ use bytemuck::{Pod, Zeroable};
 use glam::{DMat4, DVec3};
 use globefill::wgpu::{self, util::DeviceExt};
 
-use crate::{host::gpu::Gpu, stage::Stage};
+use super::stored_vertex;
+use crate::{
+    host::gpu::Gpu,
+    settings::{Encoding, Normals},
+    stage::Stage,
+};
 
 /// `Eye` of eye.wgsl, which explains the fields.
 #[repr(C)]
@@ -13,6 +18,11 @@ pub struct EyeUniform {
     clip_from_relative: [[f32; 4]; 4],
     from_eye: [f32; 4],
     origin: [f32; 4],
+    high: [f32; 4],
+    low: [f32; 4],
+    steps: [i32; 4],
+    fraction: [i32; 4],
+    remainder: [f32; 4],
     normal_scale: [f32; 4],
     heights: [f32; 4],
     depth: [f32; 4],
@@ -21,9 +31,15 @@ pub struct EyeUniform {
 /// Common declarations of the yardsticks' shaders.
 pub const SOURCE: &str = include_str!("eye.wgsl");
 
-/// Metres from which positions are counted: the place below the camera.
+/// No coordinate of the eye lies farther in whole steps; the rest is a remainder.
+const FARTHEST_M: f64 = 1e7;
+
+/// What positions in single precision are relative to.
 pub fn origin_m(stage: &Stage) -> DVec3 {
-    stage.ellipsoid.ecef(stage.scene.viewpoint.foot, 0.0)
+    match stage.settings.yardstick.encoding {
+        Encoding::Plain => DVec3::ZERO,
+        _ => stage.ellipsoid.ecef(stage.scene.origin, 0.0),
+    }
 }
 
 /// How high tops stand over the ellipsoid, metres.
@@ -31,25 +47,47 @@ pub fn top_m(stage: &Stage) -> f64 {
     stage.frame.terrain.max_m + stage.mesh.sag_m
 }
 
+/// A position on the ellipsoid times this is along the normal that columns stand on.
+pub fn normal_scale(stage: &Stage) -> DVec3 {
+    match stage.settings.yardstick.normals {
+        Normals::Geodetic => {
+            let squashed = stage.ellipsoid.a_m / stage.ellipsoid.b_m;
+            DVec3::new(1.0, 1.0, squashed * squashed)
+        }
+        Normals::Geocentric => DVec3::ONE,
+    }
+}
+
 impl EyeUniform {
     pub fn new(stage: &Stage) -> Self {
         let camera = &stage.eye.camera;
-        let (a_m, b_m) = (stage.ellipsoid.a_m, stage.ellipsoid.b_m);
-        let origin_m = origin_m(stage);
+        let ellipsoid = &stage.ellipsoid;
+        let (eye_m, origin_m) = (camera.eye_ecef_m, origin_m(stage));
         let clip_from_relative = camera.clip_from_view * DMat4::from_mat3(camera.view_from_ecef);
         let (depth_scale, depth_offset) = stage.eye.depth_coefficients();
         // A line of sight that grazes the ellipsoid is so long within the sag.
-        let pull_m = 2.0 * (2.0 * a_m * stage.mesh.sag_m.max(1.0)).sqrt();
+        let pull_m = 2.0 * (2.0 * ellipsoid.a_m * stage.mesh.sag_m.max(1.0)).sqrt();
         let push = stage.eye.pixel_size() * stage.frame.host_pixel_error;
-        let row = |x: f64, y: f64, z: f64, w: f64| [x as f32, y as f32, z as f32, w as f32];
-        let vector = |v: DVec3| row(v.x, v.y, v.z, 0.0);
+        let (high, low) = stored_vertex::high_low(eye_m);
+        let near_m = eye_m.clamp(DVec3::splat(-FARTHEST_M), DVec3::splat(FARTHEST_M));
+        let (steps, fraction) = stored_vertex::fixed(near_m);
+        let in_steps_m = DVec3::from_array(steps.map(f64::from)) / 128.0
+            + DVec3::from_array(fraction.map(f64::from)) / 131_072.0;
         Self {
             clip_from_relative: clip_from_relative.as_mat4().to_cols_array_2d(),
-            from_eye: vector(origin_m - camera.eye_ecef_m),
-            origin: vector(origin_m),
-            normal_scale: row(1.0, 1.0, (a_m / b_m).powi(2), 0.0),
-            heights: row(top_m(stage), stage.frame.terrain.min_m, push, b_m / 20.0),
-            depth: row(depth_scale, depth_offset, pull_m, 0.0),
+            from_eye: row(origin_m - eye_m, 0.0),
+            origin: row(origin_m, 0.0),
+            high: padded(high),
+            low: padded(low),
+            steps: padded(steps),
+            fraction: padded(fraction),
+            remainder: row(in_steps_m - eye_m, 0.0),
+            normal_scale: row(normal_scale(stage), 0.0),
+            heights: row(
+                DVec3::new(top_m(stage), stage.frame.terrain.min_m, push),
+                ellipsoid.b_m / 20.0,
+            ),
+            depth: row(DVec3::new(depth_scale, depth_offset, pull_m), 0.0),
         }
     }
 
@@ -61,4 +99,12 @@ impl EyeUniform {
                 usage: wgpu::BufferUsages::UNIFORM,
             })
     }
+}
+
+fn row(xyz: DVec3, w: f64) -> [f32; 4] {
+    xyz.extend(w).as_vec4().to_array()
+}
+
+fn padded<T: Default>([x, y, z]: [T; 3]) -> [T; 4] {
+    [x, y, z, T::default()]
 }

@@ -9,4 +9,5 @@ pub mod surface;
 
 mod eye_uniform;
 mod fill_faces;
+mod stored_vertex;
 mod volume_sums;

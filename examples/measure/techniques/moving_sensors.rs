@@ -127,6 +127,7 @@ impl Technique for MovingSensors {
             passes: stats.passes + 1,
             upload_bytes: stats.upload_bytes,
             gpu_bytes: stats.gpu_bytes,
+            count: None,
         })
     }
 

@@ -24,5 +24,5 @@ fn corner(@builtin(vertex_index) k: u32) -> Face {
     let position = vertices[record[which]].xyz;
     let on_surface = eye.from_eye.xyz + position;
     let height = select(bottom_m(on_surface), eye.heights.x, above == 1u);
-    return face(on_surface + normal_at(position) * height, record.w);
+    return face(on_surface + normal_at(eye.origin.xyz + position) * height, record.w);
 }

@@ -168,6 +168,7 @@ impl Technique for Surface {
             passes: 1,
             upload_bytes: 0,
             gpu_bytes: self.vertices.size() + self.indices.size(),
+            count: None,
         })
     }
 

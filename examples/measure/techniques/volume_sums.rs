@@ -187,6 +187,7 @@ impl VolumeSums {
             passes: 2,
             upload_bytes: 0,
             gpu_bytes: 0,
+            count: None,
         })
     }
 
