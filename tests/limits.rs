@@ -4,7 +4,7 @@
 
 use globefill::{
     EdgeKind, Excess, FillMesh, Inside, Limits, LonLat, MeshOptions, Polygon, Quantity, Region,
-    RegionError, Zone,
+    RegionError, Repair, RepairKind, Zone,
 };
 
 /// Meshes with one limit set to `most`; answers what was exceeded, if anything was.
@@ -260,4 +260,24 @@ fn edges_a_millimetre_apart_for_thousands_of_kilometres_are_no_overlap() {
         let mesh = FillMesh::build(&regions, &MeshOptions::default()).unwrap();
         assert_eq!(mesh.overlaps, [(0, 1)], "{kind:?}");
     }
+}
+
+#[test]
+fn rings_within_rings_by_the_ten_thousand_are_refused() {
+    // Each has all that hold it between itself and the pole.
+    let nested = |count: u32| {
+        let hole = |k: u32| {
+            let inset_deg = f64::from(k + 1) * 0.4 / f64::from(count);
+            square(inset_deg, inset_deg, 1.0 - 2.0 * inset_deg)
+        };
+        straight(vec![Polygon {
+            shell: square(0.0, 0.0, 1.0),
+            holes: (0..count).map(hole).collect(),
+        }])
+    };
+    let refused = FillMesh::build(&[nested(100_000)], &MeshOptions::default());
+    assert!(matches!(refused, Err(RegionError::Tangled { .. })));
+    let mesh = FillMesh::build(&[nested(1_000)], &MeshOptions::default()).unwrap();
+    let idle = |repair: &&Repair| repair.kind == RepairKind::IdleHole;
+    assert_eq!(mesh.repairs.iter().filter(idle).count(), 999);
 }
