@@ -1,5 +1,6 @@
 //! From rings to arcs: validated, noded, oriented, and every border once.
 
+mod alongside;
 pub(crate) mod arcs;
 pub(crate) mod authalic;
 pub(crate) mod bound_polygons;

@@ -4,7 +4,7 @@
 
 use globefill::{
     EdgeKind, Excess, FillMesh, Inside, Limits, LonLat, MeshOptions, Polygon, Quantity, Region,
-    RegionError, Zone,
+    RegionError, Repair, RepairKind, Zone,
 };
 
 /// Meshes with one limit set to `most`; answers what was exceeded, if anything was.
@@ -203,7 +203,7 @@ fn a_millimetre_all_round_the_globe_is_refused_by_its_vertices() {
 
 #[test]
 fn edges_micrometres_beside_each_other_for_thousands_of_kilometres_count_as_crossings() {
-    // Each pair is bisected in vain for some milliseconds, and counted.
+    // Each pair crosses, at angles below 10⁻⁹.
     let lines = (0..30).map(|k| {
         let aside_deg = f64::from(k) * 3e-11;
         let ring = [
@@ -223,4 +223,61 @@ fn edges_micrometres_beside_each_other_for_thousands_of_kilometres_count_as_cros
         most: 20,
     };
     assert_eq!(refused(&lines.collect::<Vec<_>>(), limits), excess);
+}
+
+#[test]
+fn long_edges_that_cross_count_once_however_many_cells_they_lie_in() {
+    // Every edge of a star {41/20} crosses all but those at its own ends once: 41 · 38 / 2.
+    let star = (0..41).map(|k| {
+        let (sin, cos) = (f64::from(k * 20) / 41.0 * std::f64::consts::TAU).sin_cos();
+        LonLat::new(10.0 + 40.0 * cos, 3.0 + 40.0 * sin)
+    });
+    let region = [Region::ring(star.collect(), EdgeKind::Geodesic)];
+    let limits = |crossings| Limits {
+        crossings,
+        ..Limits::default()
+    };
+    assert_eq!(refused(&region, limits(700)).what, Quantity::Crossings);
+    // Parts end a lattice step off the line, and some cross once more there.
+    assert!(build(&region, limits(1_000)).is_ok());
+}
+
+#[test]
+fn edges_a_millimetre_apart_for_thousands_of_kilometres_are_no_overlap() {
+    for kind in [EdgeKind::Geodesic, EdgeKind::Rhumb] {
+        let triangle = |aside_deg: f64, third: f64| {
+            let ring = [
+                (0.0, 10.0 + aside_deg),
+                (60.0, 30.0 + aside_deg),
+                (30.0, third),
+            ];
+            Region::ring(ring.map(|(x, y)| LonLat::new(x, y)).to_vec(), kind)
+        };
+        let regions = [triangle(1e-8, 80.0), triangle(0.0, -60.0)];
+        let mesh = FillMesh::build(&regions, &MeshOptions::default()).unwrap();
+        assert_eq!(mesh.overlaps, [], "{kind:?}");
+        let regions = [triangle(-1e-8, 80.0), triangle(0.0, -60.0)];
+        let mesh = FillMesh::build(&regions, &MeshOptions::default()).unwrap();
+        assert_eq!(mesh.overlaps, [(0, 1)], "{kind:?}");
+    }
+}
+
+#[test]
+fn rings_within_rings_by_the_ten_thousand_are_refused() {
+    // Each has all that hold it between itself and the pole.
+    let nested = |count: u32| {
+        let hole = |k: u32| {
+            let inset_deg = f64::from(k + 1) * 0.4 / f64::from(count);
+            square(inset_deg, inset_deg, 1.0 - 2.0 * inset_deg)
+        };
+        straight(vec![Polygon {
+            shell: square(0.0, 0.0, 1.0),
+            holes: (0..count).map(hole).collect(),
+        }])
+    };
+    let refused = FillMesh::build(&[nested(100_000)], &MeshOptions::default());
+    assert!(matches!(refused, Err(RegionError::Tangled { .. })));
+    let mesh = FillMesh::build(&[nested(1_000)], &MeshOptions::default()).unwrap();
+    let idle = |repair: &&Repair| repair.kind == RepairKind::IdleHole;
+    assert_eq!(mesh.repairs.iter().filter(idle).count(), 999);
 }

@@ -17,6 +17,10 @@ pub enum Shape {
     Ring,
     /// One box with octagonal holes.
     Holes,
+    /// The same holes, but one below the other on a meridian.
+    Meridian,
+    /// The same holes, but each in the one before.
+    Nested,
     /// One multipolygon of rough rings of 100 vertices.
     Parts,
     /// Fills like slices of a pie: all meet in one vertex, and each shares its sides with two others.
@@ -28,6 +32,8 @@ impl fmt::Display for Shape {
         f.write_str(match self {
             Self::Ring => "ring",
             Self::Holes => "holes",
+            Self::Meridian => "meridian",
+            Self::Nested => "nested",
             Self::Parts => "parts",
             Self::Pie => "pie",
         })
@@ -134,7 +140,9 @@ impl Figure {
             Shape::Ring => (1, vertices),
             // A pie's rim: each slice has it and one of its sides for its own.
             Shape::Pie => (1, vertices / 3),
-            Shape::Holes => (vertices / VERTICES_PER_HOLE, VERTICES_PER_HOLE),
+            Shape::Holes | Shape::Meridian | Shape::Nested => {
+                (vertices / VERTICES_PER_HOLE, VERTICES_PER_HOLE)
+            }
             Shape::Parts => (vertices / VERTICES_PER_PART, VERTICES_PER_PART),
         };
         if count == 1 && matches!(shape, Shape::Ring | Shape::Pie) {
@@ -155,7 +163,21 @@ impl Figure {
                 grid: (1, 1),
             };
         }
-        let columns = ((count as f64).sqrt() as usize).max(1);
+        if shape == Shape::Nested {
+            let star = |index: usize| Star {
+                centre: middle,
+                radii_deg: vec![50.0 * (1.0 - index as f64 / count as f64); corners],
+            };
+            return Self {
+                shape,
+                stars: (0..count).map(star).collect(),
+                grid: (1, 1),
+            };
+        }
+        let columns = match shape {
+            Shape::Meridian => 1,
+            _ => ((count as f64).sqrt() as usize).max(1),
+        };
         let grid = (columns, (count / columns).max(1));
         let width_deg = (FRAME[2] - FRAME[0]) / grid.0 as f64;
         let height_deg = (FRAME[3] - FRAME[1]) / grid.1 as f64;
@@ -167,7 +189,7 @@ impl Figure {
             let radius_deg = 0.24 * width_deg.min(height_deg) * chance.between(0.5, 1.0);
             let centre = LonLat::new(lon_deg, lat_deg);
             match shape {
-                Shape::Holes => Star {
+                Shape::Holes | Shape::Meridian => Star {
                     centre,
                     radii_deg: vec![radius_deg; corners],
                 },
@@ -187,7 +209,7 @@ impl Figure {
                 };
                 vec![region(self.stars.iter().map(part).collect())]
             }
-            Shape::Holes => {
+            Shape::Holes | Shape::Meridian | Shape::Nested => {
                 let [west, south, east, north] = FRAME;
                 // An edge takes the shorter way round, so the long sides need a vertex on their way.
                 let middle = 0.5 * (west + east);
@@ -255,7 +277,10 @@ impl Figure {
         let sector = self.stars[row * self.grid.0 + column].sector_of(place);
         match self.shape {
             Shape::Ring | Shape::Parts => sector.map_or(Vec::new(), |_| vec![0]),
-            Shape::Holes => sector.map_or(vec![0], |_| Vec::new()),
+            // All nested ones but the first remove nothing more.
+            Shape::Holes | Shape::Meridian | Shape::Nested => {
+                sector.map_or(vec![0], |_| Vec::new())
+            }
             Shape::Pie => {
                 sector.map_or(Vec::new(), |index| vec![(index / VERTICES_PER_SIDE) as u32])
             }

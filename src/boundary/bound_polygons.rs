@@ -52,7 +52,8 @@ pub(crate) fn bound_polygons(
             let is_globe =
                 !shell_is_left && region.edges == EdgeKind::Straight && spans_globe(shell);
             let boundary = (shell_is_left || is_globe)
-                .then(|| direct(ellipsoid, graph, &authalic, components, region.inside));
+                .then(|| direct(ellipsoid, graph, &authalic, components, region.inside))
+                .transpose()?;
             for &ring in boundary.iter().flat_map(|boundary| &boundary.idle_holes) {
                 repairs.push(Repair {
                     place: Place { ring, ..walk.place },

@@ -1,8 +1,9 @@
-//! Where curved edges meet: by bisection.
+//! Where curved edges meet: by bisection, and by differences where they run side by side.
 
 use glam::DVec3;
 
 use crate::{
+    boundary::alongside::{Alongside, alongside},
     boundary::boundary_graph::Edge,
     boundary::lattice::LatticePoint,
     boundary::meeting::Meeting,
@@ -31,31 +32,59 @@ impl Traced {
     }
 }
 
-/// Bisects both curves until their hulls part or cross.
+/// Pairs of pieces looked at before two edges are left unclear.
+const MOST_PIECES: usize = 4096;
+
+/// Bisects both curves until their hulls part or cross. Answers how many pairs of pieces it looked at.
 pub(crate) fn curved_meetings(
     edges: [&Edge; 2],
     traced: [&Traced; 2],
     found: &mut impl FnMut(Meeting),
-) {
+) -> usize {
     let [first, second] = traced.map(|edge| &edge.curve);
     let mut touch = None;
     let mut crossings: Vec<DVec3> = Vec::new();
     let mut stack = vec![(traced[0].hull, traced[1].hull)];
-    let mut budget = 4096;
+    let mut settled: Vec<[[f64; 2]; 2]> = Vec::new();
+    let mut pieces = 0;
+    let mut place = |crossings: &mut Vec<DVec3>, t: f64| {
+        crossings.push(first.ecef(t));
+        let point = LatticePoint::nearest(first.lon_lat(t));
+        found(Meeting::Crossing(on_grid_lines(edges, point.canonical())));
+    };
     while let Some((a, b)) = stack.pop() {
         if a.distance_m(&b) > a.radius_m + b.radius_m {
             continue;
         }
-        budget -= 1;
-        if budget == 0 {
-            return found(Meeting::Unclear);
+        let is_within = |piece: &Hull, [t0, t1]: [f64; 2]| t0 <= piece.t0 && piece.t1 <= t1;
+        let is_settled =
+            |ranges: &[[f64; 2]; 2]| is_within(&a, ranges[0]) && is_within(&b, ranges[1]);
+        if settled.iter().any(is_settled) {
+            continue;
+        }
+        pieces += 1;
+        if pieces == MOST_PIECES {
+            found(Meeting::Unclear);
+            return pieces;
         }
         if let Some(t) = a.crossing(&b) {
-            let t = a.t0 + t * (a.t1 - a.t0);
-            crossings.push(first.ecef(t));
-            let point = LatticePoint::nearest(first.lon_lat(t));
-            found(Meeting::Crossing(on_grid_lines(edges, point.canonical())));
-        } else if a.length_m().max(b.length_m()) < TOUCH_M {
+            place(&mut crossings, a.t0 + t * (a.t1 - a.t0));
+            continue;
+        }
+        match alongside([first, second], [&a, &b]) {
+            Some(Alongside::Apart) => continue,
+            Some(Alongside::Crossing(t, ranges)) => {
+                place(&mut crossings, t);
+                settled.push(ranges);
+                continue;
+            }
+            Some(Alongside::Together) => {
+                found(Meeting::Unclear);
+                return pieces;
+            }
+            None => {}
+        }
+        if a.length_m().max(b.length_m()) < TOUCH_M {
             touch = Some((a.start, touching(edges, first, &a, &b)));
         } else if a.length_m() + a.radius_m >= b.length_m() + b.radius_m {
             stack.extend(a.parts(first).map(|part| (part, b)));
@@ -73,6 +102,7 @@ pub(crate) fn curved_meetings(
         .filter(is_new)
         .into_iter()
         .for_each(|(_, meeting)| found(meeting));
+    pieces
 }
 
 /// What short pieces that touch have in common: an end of one edge, or else a crossing so flat that
@@ -109,20 +139,20 @@ fn on_grid_lines(edges: [&Edge; 2], mut point: LatticePoint) -> LatticePoint {
 
 /// A piece of a curve: it lies within `radius_m` of its chord.
 #[derive(Clone, Copy)]
-struct Hull {
-    t0: f64,
-    t1: f64,
-    start: DVec3,
-    end: DVec3,
+pub(super) struct Hull {
+    pub(super) t0: f64,
+    pub(super) t1: f64,
+    pub(super) start: DVec3,
+    pub(super) end: DVec3,
     /// Unit vector across the wall through the chord.
-    across: DVec3,
+    pub(super) across: DVec3,
     /// How far the curve may lie from the plane of that wall.
     deviation_m: f64,
-    radius_m: f64,
+    pub(super) radius_m: f64,
 }
 
 impl Hull {
-    fn of(curve: &CurveOn, t0: f64, t1: f64) -> Self {
+    pub(super) fn of(curve: &CurveOn, t0: f64, t1: f64) -> Self {
         let (start, end) = (curve.ecef(t0), curve.ecef(t1));
         let deviation_m = curve.deviation_bound_m(t0, t1);
         let ellipsoid = curve.ellipsoid();
@@ -139,7 +169,7 @@ impl Hull {
         }
     }
 
-    fn length_m(&self) -> f64 {
+    pub(super) fn length_m(&self) -> f64 {
         self.start.distance(self.end)
     }
 
@@ -210,7 +240,7 @@ pub(crate) fn meetings_beyond_common_node(
     edges: [&Edge; 2],
     traced: [&Traced; 2],
     found: &mut impl FnMut(Meeting),
-) {
+) -> usize {
     let [first, second] = traced.map(|edge| &edge.curve);
     let node = if edges[0].from == edges[1].from || edges[0].from == edges[1].to {
         edges[0].from
@@ -232,7 +262,8 @@ pub(crate) fn meetings_beyond_common_node(
         (curve.ecef(on) - curve.ecef(at)).normalize_or_zero()
     });
     if headings[0].cross(headings[1]).length() < PARTING_SINE {
-        return found(Meeting::Unclear);
+        found(Meeting::Unclear);
+        return 0;
     }
     let common = first.ellipsoid().ecef(node_position(edges[0], node), 0.0);
     curved_meetings(edges, traced, &mut |meeting| match meeting {
@@ -244,7 +275,7 @@ pub(crate) fn meetings_beyond_common_node(
             }
         }
         meeting => found(meeting),
-    });
+    })
 }
 
 fn node_position(edge: &Edge, node: u32) -> LonLat {

@@ -1,5 +1,7 @@
 //! Which side of a polygon's boundary is inside.
 
+use rayon::prelude::*;
+
 use crate::{
     boundary::authalic::{Authalic, Enclosed},
     boundary::boundary_graph::{BoundaryGraph, DirectedEdge},
@@ -7,6 +9,7 @@ use crate::{
     boundary::meridian_index::MeridianIndex,
     boundary::simple_loops::Component,
     ellipsoid::Ellipsoid,
+    error::RegionError,
     region::Inside,
 };
 
@@ -46,7 +49,7 @@ pub(crate) fn direct(
     authalic: &Authalic,
     components: Vec<Component>,
     inside: Inside,
-) -> Boundary {
+) -> Result<Boundary, RegionError> {
     let mut sides: Vec<Side> = components
         .into_iter()
         .map(|component| {
@@ -71,27 +74,27 @@ pub(crate) fn direct(
                 side.reverse();
             }
         }
-        return gather(sides.into_iter());
+        return Ok(gather(sides.into_iter()));
     };
     if inside == Inside::Smaller && authalic.left_m2(sides[main].enclosed) > half_m2 {
         sides[main].reverse();
     }
     if sides.len() == 1 {
-        return gather(sides.into_iter());
+        return Ok(gather(sides.into_iter()));
     }
-    let mut kept = direct_others(ellipsoid, graph, &mut sides, main);
+    let mut kept = direct_others(ellipsoid, graph, &mut sides, main)?;
     // A belt has two components, each with its smaller side beyond.
     if inside == Inside::Smaller && shell_m2(authalic, &sides) > half_m2 {
         sides[main].reverse();
-        kept = direct_others(ellipsoid, graph, &mut sides, main);
+        kept = direct_others(ellipsoid, graph, &mut sides, main)?;
     }
     let idle_holes = sides.iter().zip(&kept).filter(|(_, kept)| !**kept);
     let idle_holes = idle_holes.map(|(side, _)| side.component.ring).collect();
     let kept = sides.into_iter().zip(kept).filter(|(_, kept)| *kept);
-    Boundary {
+    Ok(Boundary {
         idle_holes,
         ..gather(kept.map(|(side, _)| side))
-    }
+    })
 }
 
 /// Area inside the shell, holes not counted.
@@ -110,58 +113,90 @@ fn gather(sides: impl Iterator<Item = Side>) -> Boundary {
     boundary
 }
 
+/// Edges and components passed on meridians before a polygon counts as a tangle: of rings within rings
+/// each has all that hold it on its way.
+const MOST_PASSED: u64 = 4_000_000_000;
+
+/// What becomes of a component.
+#[derive(Clone, Copy, PartialEq)]
+enum Fate {
+    Kept,
+    Reversed,
+    Dropped,
+}
+
 /// Directs all components but the main one; answers which of them bound anything.
 fn direct_others(
     ellipsoid: &Ellipsoid,
     graph: &BoundaryGraph,
     sides: &mut [Side],
     main: usize,
-) -> Vec<bool> {
+) -> Result<Vec<bool>, RegionError> {
     let labelled = sides
         .iter()
         .enumerate()
         .flat_map(|(label, side)| side.component.edges().map(move |edge| (edge, label as u32)));
     let index = MeridianIndex::new(ellipsoid, graph, labelled);
-    // Per component those that separate a point of it from the north pole.
-    let separating: Vec<Vec<u32>> = sides
+    let start_of = |side: &Side| point_on(graph, side.component.edges());
+    if sides
         .iter()
-        .map(|side| {
-            let point = point_on(graph, side.component.edges());
-            index.separating(ellipsoid, graph, point, |_| {})
-        })
-        .collect();
-    let separates =
-        |other: usize, from: usize| separating[from].binary_search(&(other as u32)).is_ok();
-    let mut kept = vec![true; sides.len()];
-    for own in (0..sides.len()).filter(|&own| own != main) {
-        let main_has_own = sides[main].enclosed.has_north_pole() != separates(main, own);
-        let mut hole_between = false;
-        let mut facing_inside = main_has_own;
-        // Only components on one of the two meridians can lie between.
-        for &between in separating[own].iter().chain(&separating[main]) {
-            let between = between as usize;
-            if between == own
-                || between == main
-                || separates(between, own) == separates(between, main)
-            {
-                continue;
-            }
-            if !sides[between].component.is_hole() {
-                facing_inside = !facing_inside;
-            } else {
-                hole_between = true;
-            }
+        .map(|side| index.passed(start_of(side)))
+        .sum::<u64>()
+        > MOST_PASSED
+    {
+        let edges = sides.iter().map(|side| side.component.edges().count());
+        return Err(RegionError::Tangled { edges: edges.sum() });
+    }
+    // Components that separate a point of this one from the north pole. Looked up one by one: of rings
+    // within rings all together would be more than memory holds.
+    let separating = |side: &Side| index.separating(ellipsoid, graph, start_of(side), |_| {});
+    let of_main = separating(&sides[main]);
+    let fate_of = |own: usize| {
+        if own == main {
+            return Fate::Kept;
         }
-        if sides[own].component.is_hole() && (hole_between || !facing_inside) {
-            kept[own] = false;
-            continue;
-        }
-        let left_has_main = sides[own].enclosed.has_north_pole() != separates(own, main);
-        if left_has_main != facing_inside {
-            sides[own].reverse();
+        fate(sides, [own, main], &separating(&sides[own]), &of_main)
+    };
+    let fates: Vec<Fate> = (0..sides.len()).into_par_iter().map(fate_of).collect();
+    for (side, fate) in sides.iter_mut().zip(&fates) {
+        if *fate == Fate::Reversed {
+            side.reverse();
         }
     }
-    kept
+    Ok(fates
+        .into_iter()
+        .map(|fate| fate != Fate::Dropped)
+        .collect())
+}
+
+/// What becomes of the component `own`, from what separates it, and the main one, from the north pole.
+fn fate(sides: &[Side], [own, main]: [usize; 2], of_own: &[u32], of_main: &[u32]) -> Fate {
+    let separates = |other: usize, from: &[u32]| from.binary_search(&(other as u32)).is_ok();
+    let main_has_own = sides[main].enclosed.has_north_pole() != separates(main, of_own);
+    let mut hole_between = false;
+    let mut facing_inside = main_has_own;
+    // Only components on one of the two meridians can lie between.
+    for &between in of_own.iter().chain(of_main) {
+        let between = between as usize;
+        let is_between = separates(between, of_own) != separates(between, of_main);
+        if between == own || between == main || !is_between {
+            continue;
+        }
+        if !sides[between].component.is_hole() {
+            facing_inside = !facing_inside;
+        } else {
+            hole_between = true;
+        }
+    }
+    if sides[own].component.is_hole() && (hole_between || !facing_inside) {
+        return Fate::Dropped;
+    }
+    let left_has_main = sides[own].enclosed.has_north_pole() != separates(own, of_main);
+    if left_has_main == facing_inside {
+        Fate::Kept
+    } else {
+        Fate::Reversed
+    }
 }
 
 /// A node of closed edges that is not a pole.

@@ -25,20 +25,21 @@ pub(crate) enum Meeting {
 }
 
 /// Calls `found` for everything that two edges have in common. `traced` gives their curves where
-/// they are needed.
+/// they are needed. Answers how many pairs of pieces of curves it looked at.
 pub(crate) fn meetings<'a>(
     [first, second]: [&Edge; 2],
     traced: impl Fn() -> [&'a Traced; 2],
     mut found: impl FnMut(Meeting),
-) {
+) -> usize {
     if first.kind == CurveKind::Straight && second.kind == CurveKind::Straight {
         for turns in -2..=2 {
             straight_meetings(first, second, turns, &mut found);
         }
-        return;
+        return 0;
     }
     if matches!(first.kind, CurveKind::Circle(_)) && first.kind == second.kind {
-        return same_circle_meetings([first, second], traced(), found);
+        same_circle_meetings([first, second], traced(), found);
+        return 0;
     }
     let shared = [second.from, second.to]
         .iter()
@@ -48,11 +49,14 @@ pub(crate) fn meetings<'a>(
         0 => curved_meetings([first, second], traced(), &mut found),
         // From a common end two curves of one kind part for good (geodesics up to the antipode,
         // which edges never reach); how they part is looked at where they do.
-        1 if first.is_also(second.kind) || second.is_also(first.kind) => {}
+        1 if first.is_also(second.kind) || second.is_also(first.kind) => 0,
         1 if first.kind.is_of_zones() || second.kind.is_of_zones() => {
-            meetings_beyond_common_node([first, second], traced(), &mut found);
+            meetings_beyond_common_node([first, second], traced(), &mut found)
         }
-        _ => found(Meeting::Unclear),
+        _ => {
+            found(Meeting::Unclear);
+            0
+        }
     }
 }
 
@@ -149,11 +153,15 @@ fn latitude_at(curve: &CurveOn, edge: &Edge, point: LatticePoint) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use glam::DVec3;
     use proptest::{prelude::*, test_runner::RngSeed};
 
     use super::*;
     use crate::{
-        boundary::boundary_graph::BoundaryGraph, curve::Curve, geodetic::LonLat, region::EdgeKind,
+        boundary::boundary_graph::BoundaryGraph,
+        curve::{Beside, Curve},
+        geodetic::LonLat,
+        region::EdgeKind,
     };
 
     fn edges(kind: EdgeKind, lines: [[(f64, f64); 2]; 2]) -> [Edge; 2] {
@@ -231,6 +239,120 @@ mod tests {
                 prop_assert_eq!(found.len(), usize::from(crossing), "{:?} {:?}", kind, &found);
                 prop_assert!(!found.contains(&Meeting::Unclear));
             }
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { cases: 60, failure_persistence: None, rng_seed: RngSeed::Fixed(2), ..ProptestConfig::default() })]
+
+        /// On the sphere planes through the centre tell which great circles cross.
+        #[test]
+        fn great_circles_micrometres_beside_each_other_cross_or_not(
+            from in (-180.0..180.0_f64, -70.0..70.0_f64),
+            azimuth_rad in 0.0..std::f64::consts::TAU,
+            length_rad in 0.01..2.0_f64,
+            within in (0.0..0.3_f64, 0.7..1.0_f64),
+            aside in (-5.0..1.0_f64, -5.0..1.0_f64, any::<(bool, bool)>()),
+        ) {
+            let sphere = Ellipsoid::sphere(6.4e6);
+            let start = sphere.normal(LonLat::new(from.0, from.1));
+            let east = DVec3::Z.cross(start).normalize();
+            let (sin, cos) = azimuth_rad.sin_cos();
+            let ahead = east * sin + start.cross(east) * cos;
+            let across = ahead.cross(start);
+            let at = |share: f64, aside_m: f64| {
+                let (sin, cos) = (share * length_rad).sin_cos();
+                let point = start * cos + ahead * sin + across * (aside_m / sphere.a_m);
+                let lat_deg = point.z.atan2(point.x.hypot(point.y)).to_degrees();
+                (point.y.atan2(point.x).to_degrees(), lat_deg)
+            };
+            let (a, b, signs) = aside;
+            let aside_m = |exponent: f64, minus| if minus { -1.0 } else { 1.0 } * 10_f64.powf(exponent);
+            let lines = [
+                [at(0.0, 0.0), at(1.0, 0.0)],
+                [at(within.0, aside_m(a, signs.0)), at(within.1, aside_m(b, signs.1))],
+            ];
+            let edges = edges(EdgeKind::Geodesic, lines);
+            // Lattice points are beside what was asked for.
+            let ends = [0, 1].map(|k| {
+                let curve = edges[k].curve().on(&sphere);
+                [curve.ecef(0.0), curve.ecef(1.0)]
+            });
+            let sides = |plane: [DVec3; 2], points: [DVec3; 2]| {
+                let normal = plane[0].cross(plane[1]).normalize();
+                points.map(|point| point.dot(normal))
+            };
+            let [of_second, of_first] = [sides(ends[0], ends[1]), sides(ends[1], ends[0])];
+            prop_assume!(of_second.iter().chain(&of_first).all(|side_m| side_m.abs() > 3e-6));
+            let crosses = [of_first, of_second].iter().all(|[a, b]| a * b < 0.0);
+            let traced = [0, 1].map(|k| Traced::new(&sphere, &edges[k]));
+            let mut found = Vec::new();
+            meetings([&edges[0], &edges[1]], || [&traced[0], &traced[1]], |meeting| found.push(meeting));
+            // Crossings at less than 10⁻¹⁰ are not always seen.
+            let is_flat = a.max(b) < -4.0 && signs.0 != signs.1;
+            if is_flat && found == [Meeting::Unclear] {
+                return Ok(());
+            }
+            prop_assert_eq!(found.len(), usize::from(crosses), "{:?} {:?}", of_second, &found);
+            for meeting in found {
+                let Meeting::Crossing(point) = meeting else {
+                    panic!("{meeting:?}")
+                };
+                let point = sphere.ecef(point.lon_lat(), 0.0);
+                for side_m in [0, 1].map(|k| sides(ends[k], [point; 2])[0]) {
+                    prop_assert!(side_m.abs() < 4e-6, "{side_m}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn curves_of_all_kinds_beside_each_other_for_long_are_told_apart() {
+        for kind in [EdgeKind::Geodesic, EdgeKind::Rhumb] {
+            for aside_deg in [1e-3, 1e-6, 1e-8] {
+                let lines = |turn: f64| {
+                    let far = (60.0, 30.0 + turn * aside_deg);
+                    [[(0.0, 10.0), (60.0, 30.0)], [(0.0, 10.0 + aside_deg), far]]
+                };
+                assert_eq!(all(kind, lines(1.0)), [], "{kind:?} {aside_deg}");
+                let [Meeting::Crossing(_)] = all(kind, lines(-1.0))[..] else {
+                    panic!("{kind:?} {aside_deg}")
+                };
+            }
+        }
+    }
+
+    #[test]
+    fn sides_of_a_corridor_round_half_the_globe_part_in_few_pieces() {
+        let at = |lon, lat| LonLat::new(lon, lat);
+        let side = |right_m, end: LonLat| {
+            let beside = Beside {
+                start: at(0.0, 0.0),
+                azimuth_deg: 90.0,
+                right_m,
+            };
+            // South is to the right of who goes east along the equator.
+            let south_deg = right_m / Ellipsoid::WGS84.ecef(at(0.0, 0.0), 0.0).x;
+            let aside_deg = -south_deg.to_degrees() / (1.0 - 0.006_694_38);
+            let [from, to] = [0.0, end.lon_deg].map(|lon_deg| at(lon_deg, aside_deg));
+            Curve::between(CurveKind::Beside(beside), from, to)
+        };
+        for apart_m in [1e3, 1.0, 1e-3] {
+            let mut graph = BoundaryGraph::default();
+            let end = at(89.0, 0.0);
+            let [first, second] = [-0.5, 0.5].map(|share| {
+                let edge = graph.insert_curve(&side(share * apart_m, end)).unwrap();
+                graph.walk(edge)
+            });
+            let traced = [&first, &second].map(|edge| Traced::new(&Ellipsoid::WGS84, edge));
+            let mut found = Vec::new();
+            let pieces = meetings(
+                [&first, &second],
+                || [&traced[0], &traced[1]],
+                |meeting| found.push(meeting),
+            );
+            assert_eq!(found, [], "{apart_m}");
+            assert!(pieces < 2_000, "{apart_m}: {pieces}");
         }
     }
 

@@ -1,7 +1,7 @@
 //! Noding: edges that meet inside get a common node there, or are listed as overlapping.
 
 use std::sync::{
-    OnceLock,
+    OnceLock, PoisonError, RwLock,
     atomic::{AtomicUsize, Ordering},
 };
 
@@ -41,7 +41,7 @@ const MAX_ROUNDS: usize = 8;
 const MOST_VISITS: usize = 100_000_000;
 
 /// Pairs of curved edges left unclear, and one more for every forty edges, before the input counts as
-/// a tangle: each takes some ten milliseconds to give up.
+/// a tangle: each may take some ten milliseconds to give up.
 const MOST_UNCLEAR: usize = 2_000;
 
 /// Pairs of polygons (smaller first) whose boundaries cross.
@@ -198,6 +198,26 @@ impl EdgeUsers {
 
 type Found = (u32, u32, Meeting);
 
+/// Pairs of pieces of curves that are looked at again as fast as it is looked up that they were.
+const FEW_PIECES: usize = 8;
+
+/// Pairs of curved edges that meet or took time: long ones lie in many common cells of the grid, and are
+/// looked at in one of them.
+#[derive(Default)]
+struct Settled(RwLock<FxHashSet<(u32, u32)>>);
+
+impl Settled {
+    fn has(&self, first: u32, second: u32) -> bool {
+        let pairs = self.0.read().unwrap_or_else(PoisonError::into_inner);
+        pairs.contains(&(first, second))
+    }
+
+    fn add(&self, first: u32, second: u32) {
+        let mut pairs = self.0.write().unwrap_or_else(PoisonError::into_inner);
+        pairs.insert((first, second));
+    }
+}
+
 /// All meetings of walked edges of which one at least is numbered `first_fresh` or more, after `met`
 /// others. Fails if there are too many pairs to look at, or too many meet.
 fn find_meetings(
@@ -223,6 +243,7 @@ fn find_meetings(
     let most_unclear = MOST_UNCLEAR + edges.len() / 40;
     let unclear = AtomicUsize::new(0);
     let met = AtomicUsize::new(met);
+    let settled = Settled::default();
     let found = EdgeGrid::new(&edges)
         .pairs(
             |index| candidates[index as usize] as usize >= first_fresh,
@@ -230,6 +251,11 @@ fn find_meetings(
                 if met.load(Ordering::Relaxed) > most
                     || unclear.load(Ordering::Relaxed) > most_unclear
                 {
+                    return;
+                }
+                let is_straight = |edge: u32| edges[edge as usize].kind == CurveKind::Straight;
+                let is_curved = !(is_straight(a) && is_straight(b));
+                if is_curved && settled.has(a, b) {
                     return;
                 }
                 let (first, second) = (candidates[a as usize], candidates[b as usize]);
@@ -240,13 +266,18 @@ fn find_meetings(
                         &**traces[index].get_or_init(trace)
                     })
                 };
-                meetings([&edges[a], &edges[b]], traced, |meeting| {
+                let mut meets = false;
+                let pieces = meetings([&edges[a], &edges[b]], traced, |meeting| {
+                    meets = true;
                     met.fetch_add(1, Ordering::Relaxed);
                     if meeting == Meeting::Unclear {
                         unclear.fetch_add(1, Ordering::Relaxed);
                     }
                     found.push((first, second, meeting));
                 });
+                if is_curved && (meets || pieces > FEW_PIECES) {
+                    settled.add(a as u32, b as u32);
+                }
             },
         )
         .map_err(|_| RegionError::Tangled {

@@ -87,11 +87,11 @@ pub(crate) fn bound_zone(
         })?
     };
     let component = Component { loops, ring: 0 };
-    Ok(direct(
+    direct(
         ellipsoid,
         graph,
         authalic,
         vec![component],
         Inside::LeftOfRing,
-    ))
+    )
 }

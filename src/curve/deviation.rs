@@ -59,11 +59,7 @@ impl CurveOn {
         let sag_m = self.ellipsoid.chord_sag_m(chord.length());
         let twist_m = 0.5 * (end_normal - start_normal).dot(across).abs() * sag_m;
         // Rounding of positions, amplified by the extrapolation to the ends.
-        let rounding_m = match &self.course {
-            // Their ends lie beside the curve by as much as vertices are rounded.
-            Course::Circle(_) | Course::Beside(_) => 4e-13 * self.ellipsoid.a_m,
-            _ => 1e-14 * self.ellipsoid.a_m,
-        };
+        let rounding_m = self.end_rounding_m();
         let tilt = start_normal
             .dot(across)
             .abs()
@@ -71,9 +67,18 @@ impl CurveOn {
         (beside_plane_m + twist_m + rounding_m) * 1.001 / (1.0 - tilt * tilt).sqrt()
     }
 
+    /// How far, metres, the ends may lie beside the curve.
+    pub(crate) fn end_rounding_m(&self) -> f64 {
+        match &self.course {
+            // By as much as vertices are rounded.
+            Course::Circle(_) | Course::Beside(_) => 4e-13 * self.ellipsoid.a_m,
+            _ => 1e-14 * self.ellipsoid.a_m,
+        }
+    }
+
     /// Bound, metres, on the length of the position's third or fifth derivative by x, which runs
     /// from 0 to 1 over a `share` of the curve.
-    fn derivative_bound(&self, share: f64, order: i32) -> f64 {
+    pub(crate) fn derivative_bound(&self, share: f64, order: i32) -> f64 {
         let Curve {
             from, to, turn_deg, ..
         } = self.curve;

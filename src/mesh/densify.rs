@@ -45,7 +45,8 @@ pub(crate) fn densify(
     tolerance_m: f64,
     room: &VertexRoom,
 ) -> DenseChain {
-    let tolerance_m = tolerance_m.max(MIN_TOLERANCE_M);
+    // Deviations that cannot be bounded are infinite, and above every tolerance.
+    let tolerance_m = tolerance_m.max(MIN_TOLERANCE_M).min(f64::MAX);
     let mut dense = DenseChain::default();
     let ecef_m = |node: u32| node_ecef_m[node as usize];
     for &edge in &chain.edges {

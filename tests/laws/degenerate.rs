@@ -177,3 +177,29 @@ fn slivers_at_a_pole_are_not_turned_inside_out() {
         }
     }
 }
+
+#[test]
+fn a_lune_from_pole_to_pole_is_filled_however_far_chords_may_stray() {
+    let ring = [(20.0, 90.0), (20.0, -90.0), (120.0, 90.0)];
+    for kind in [EdgeKind::Rhumb, EdgeKind::Straight] {
+        for tolerance_m in [1e7, f64::INFINITY] {
+            let options = MeshOptions {
+                tolerance_m,
+                ..MeshOptions::default()
+            };
+            let mesh = FillMesh::build(&[smaller(kind, &[&ring])], &options).unwrap();
+            for (lon_deg, expected) in [(15.0, 0), (25.0, 1), (56.7, 1), (115.0, 1), (125.0, 0)] {
+                // Straight edges go over from one meridian to the other.
+                let at = match kind {
+                    EdgeKind::Rhumb => LonLat::new(lon_deg, 40.7),
+                    _ => LonLat::new(lon_deg, 89.0),
+                };
+                assert_eq!(
+                    covering(&mesh, at),
+                    expected,
+                    "{kind:?} {tolerance_m} {at:?}"
+                );
+            }
+        }
+    }
+}
