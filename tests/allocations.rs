@@ -62,9 +62,7 @@ fn a_still_frame_allocates_and_uploads_nothing() {
     for scene in ["plain", "hatched, stroked", "with a sensor"] {
         match scene {
             "plain" => {}
-            "hatched, stroked" => renderer
-                .set_style(mesh, 7, hatched.clone())
-                .expect("fill 7"),
+            "hatched, stroked" => renderer.set_style(mesh, 7, hatched).expect("fill 7"),
             _ => {
                 let pose = Pose::nadir(
                     &Ellipsoid::WGS84,
