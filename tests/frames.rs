@@ -82,6 +82,27 @@ fn hidden_fills_cost_no_draws() {
 }
 
 #[test]
+fn fills_beside_the_picture_cost_no_draws() {
+    let Some(gpu) = gpu() else { return };
+    let size_px = UVec2::new(160, 90);
+    let near = surface(2e4, size_px);
+    let figure = Figure::new(Ellipsoid::WGS84);
+    // The pair lies 150 km away, above the horizon.
+    let pose = Pose::nadir(13.0, 47.0, 2e4);
+    let cast = Cast::new(&figure, &pose, size_px, 1, Terrain::Bare);
+    let beside = Surface::new(&cast, DepthKind::Reversed);
+    let mut painter = painter(gpu, &near, CountTechnique::Winding);
+    let mut view = View::default();
+    for _ in 0..2 {
+        let none = painter.draw(gpu, &mut view, &beside, 0.0);
+        assert!(none.ids.iter().all(|&id| id == 0));
+        assert_eq!((none.stats.draws, none.stats.drawn), (0, 2));
+        let both = painter.draw(gpu, &mut view, &near, 0.0);
+        assert!(both.ids.contains(&1) && both.ids.contains(&2));
+    }
+}
+
+#[test]
 fn views_of_one_renderer_do_not_meet() {
     let Some(gpu) = gpu() else { return };
     let surfaces = [

@@ -204,7 +204,7 @@ fn packed(colors: &[[f32; 4]]) -> Option<Vec<[u32; 2]>> {
         return None;
     }
     // Off by half a step at most: 1 / 131 070.
-    let steps = |channel: f32| (channel * 65535.0).round() as u32;
+    let steps = |channel: f32| (f64::from(channel) * 65535.0).round() as u32;
     let mut packed: Vec<[u32; 2]> = colors
         .iter()
         .map(|color| {
@@ -225,5 +225,37 @@ pub(crate) fn require(
         Ok(())
     } else {
         Err(RendererError::MissingFeature(needed))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn packed_colors_are_off_by_half_a_step() {
+        let channel = |k: usize| (k as f32 * 0.618_034).fract();
+        let mut colors: Vec<[f32; 4]> = (0..1000)
+            .map(|k| std::array::from_fn(|at| channel(4 * k + at)))
+            .collect();
+        colors.push([0.0, 1.0, 0.0, 1.0]);
+        let found = packed(&colors).expect("they are few and ordinary");
+        assert_eq!(found.len(), MOST_PACKED);
+        for (color, [low, high]) in colors.iter().zip(found) {
+            let steps = [low & 0xffff, low >> 16, high & 0xffff, high >> 16];
+            for (&wanted, steps) in color.iter().zip(steps) {
+                let off = f64::from(steps) / 65535.0 - f64::from(wanted);
+                assert!(off.abs() <= 0.5001 / 65535.0, "{wanted} {steps}");
+            }
+        }
+    }
+
+    #[test]
+    fn colors_that_are_many_or_too_bright_are_not_packed() {
+        assert!(packed(&[[0.5; 4]; MOST_PACKED]).is_some());
+        assert!(packed(&[[0.5; 4]; MOST_PACKED + 1]).is_none());
+        for channel in [-0.1, 1.1] {
+            assert!(packed(&[[0.5; 4], [0.0, channel, 0.0, 1.0]]).is_none());
+        }
     }
 }
