@@ -3,13 +3,15 @@
 use std::{fmt, path::PathBuf, time::Instant};
 
 use clap::ValueEnum;
-use globefill::{FillMesh, Inside, Locator, MeshOptions, Region, geo_json::regions_from_geojson};
+use globefill::{
+    EdgeKind, FillMesh, Inside, Locator, MeshOptions, Region, geo_json::regions_from_geojson,
+};
 
 use crate::{
     judge, plane,
     process::{cpu_seconds, peak_bytes},
     report::Report,
-    synthetic::{self, Shape},
+    synthetic::{self, Edges, Shape},
 };
 
 /// Which side of a file's shells is inside.
@@ -57,7 +59,11 @@ pub enum Case {
         orientation: Orientation,
     },
     /// A made shape of about so many vertices.
-    Synthetic { shape: Shape, vertices: usize },
+    Synthetic {
+        shape: Shape,
+        vertices: usize,
+        edges: Edges,
+    },
 }
 
 impl Case {
@@ -68,11 +74,17 @@ impl Case {
                 let path = path.display().to_string();
                 vec![path, "--orientation".into(), orientation.to_string()]
             }
-            Self::Synthetic { shape, vertices } => vec![
+            Self::Synthetic {
+                shape,
+                vertices,
+                edges,
+            } => vec![
                 "--synthetic".into(),
                 shape.to_string(),
                 "--sizes".into(),
                 vertices.to_string(),
+                "--edges".into(),
+                edges.to_string(),
             ],
         }
     }
@@ -133,8 +145,16 @@ impl Case {
                     .for_each(|region| orientation.apply(region));
                 Ok(regions)
             }
-            Self::Synthetic { shape, vertices } => {
-                Ok(synthetic::Figure::new(*shape, *vertices).regions())
+            Self::Synthetic {
+                shape,
+                vertices,
+                edges,
+            } => {
+                let mut regions = synthetic::Figure::new(*shape, *vertices).regions();
+                for region in &mut regions {
+                    region.edges = EdgeKind::from(*edges);
+                }
+                Ok(regions)
             }
         }
     }
@@ -148,7 +168,9 @@ impl Case {
         report: &mut Report,
     ) {
         let (places, expected) = match self {
-            Self::Synthetic { shape, vertices } => {
+            Self::Synthetic {
+                shape, vertices, ..
+            } => {
                 let figure = synthetic::Figure::new(*shape, *vertices);
                 let places = figure.places(points);
                 let expected = places.iter().map(|&place| figure.fills_at(place)).collect();
@@ -182,7 +204,16 @@ impl fmt::Display for Case {
                 Some(stem) => write!(f, "{}", stem.to_string_lossy()),
                 None => write!(f, "{}", path.display()),
             },
-            Self::Synthetic { shape, vertices } => write!(f, "{shape} {vertices}"),
+            Self::Synthetic {
+                shape,
+                vertices,
+                edges: Edges::Straight,
+            } => write!(f, "{shape} {vertices}"),
+            Self::Synthetic {
+                shape,
+                vertices,
+                edges,
+            } => write!(f, "{edges} {shape} {vertices}"),
         }
     }
 }

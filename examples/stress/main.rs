@@ -26,7 +26,7 @@ use clap::Parser;
 use crate::{
     case::{Case, Orientation},
     report::Report,
-    synthetic::Shape,
+    synthetic::{Edges, Shape},
 };
 
 /// Meshes huge input and reports time and peak memory.
@@ -40,6 +40,9 @@ struct Arguments {
     /// Vertices of each shape.
     #[arg(long, value_delimiter = ',', default_value = "1e4,1e5,1e6")]
     sizes: Vec<f64>,
+    /// How the vertices of shapes are joined.
+    #[arg(long, default_value = "straight")]
+    edges: Edges,
     /// Which side of a file's shells is inside.
     #[arg(long, default_value = "plane")]
     orientation: Orientation,
@@ -64,7 +67,11 @@ impl Arguments {
         let files = files.map(|path| Case::File { path, orientation });
         let synthetic = self.synthetic.iter().flat_map(|&shape| {
             let vertices = self.sizes.iter().map(|&size| size as usize);
-            vertices.map(move |vertices| Case::Synthetic { shape, vertices })
+            vertices.map(move |vertices| Case::Synthetic {
+                shape,
+                vertices,
+                edges: self.edges,
+            })
         });
         files.chain(synthetic).collect()
     }

@@ -40,6 +40,38 @@ impl fmt::Display for Shape {
     }
 }
 
+/// How vertices are joined. The formulas that judge a shape are of straight edges: others lie a share
+/// of their length beside them, and the long sides of boxes far away.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Edges {
+    /// [`EdgeKind::Straight`].
+    Straight,
+    /// [`EdgeKind::Geodesic`].
+    Geodesic,
+    /// [`EdgeKind::Rhumb`].
+    Rhumb,
+}
+
+impl From<Edges> for EdgeKind {
+    fn from(edges: Edges) -> Self {
+        match edges {
+            Edges::Straight => Self::Straight,
+            Edges::Geodesic => Self::Geodesic,
+            Edges::Rhumb => Self::Rhumb,
+        }
+    }
+}
+
+impl fmt::Display for Edges {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Straight => "straight",
+            Self::Geodesic => "geodesic",
+            Self::Rhumb => "rhumb",
+        })
+    }
+}
+
 /// Numbers as good as random, always the same.
 pub struct Chance(u64);
 

@@ -30,8 +30,8 @@ pub(super) enum Alongside {
     /// They cross once, at this parameter of the first curve; on these ranges of the curves there is
     /// nothing else.
     Crossing(f64, [[f64; 2]; 2]),
-    /// For a metre or more they are no further apart than positions are rounded.
-    Together,
+    /// On these ranges, a metre long or more, they are no further apart than positions are rounded.
+    Together([[f64; 2]; 2]),
 }
 
 /// How two pieces lie, if it can be told.
@@ -39,11 +39,11 @@ pub(super) enum Alongside {
 /// Curves that cross at less than 10⁻⁹ are as close as positions are rounded for hundreds of
 /// kilometres: there longer pieces than those asked for tell that they cross.
 pub(super) fn alongside(curves: [&CurveOn; 2], pieces: [&Hull; 2]) -> Option<Alongside> {
-    match compared(curves, pieces) {
+    let blurred = match compared(curves, pieces) {
         Compared::Told(told) => return Some(told),
         Compared::Not => return None,
-        Compared::Blurred => {}
-    }
+        Compared::Blurred(ranges) => ranges,
+    };
     let widened = |curve: &CurveOn, piece: &Hull, times: f64| {
         let more = 0.5 * (times - 1.0) * (piece.t1 - piece.t0);
         Hull::of(
@@ -59,14 +59,14 @@ pub(super) fn alongside(curves: [&CurveOn; 2], pieces: [&Hull; 2]) -> Option<Alo
             _ => None,
         }
     });
-    told.or(Some(Alongside::Together))
+    told.or(Some(Alongside::Together(blurred)))
 }
 
 /// What a comparison of pieces says.
 enum Compared {
     Told(Alongside),
-    /// They are so close that rounding hides how they lie.
-    Blurred,
+    /// On these ranges they are so close that rounding hides how they lie.
+    Blurred([[f64; 2]; 2]),
     /// They do not run side by side, or are too long.
     Not,
 }
@@ -160,7 +160,7 @@ fn compare(curves: [&CurveOn; 2], pieces: [&Hull; 2]) -> Option<Compared> {
     if margin_m < CROSSING_M && clear == [true; 2] && aside.crosses_once() {
         let [t0, t1] = ranges[0];
         let t = t0 + aside.root() * (t1 - t0);
-        let ranges = ranges.map(|[t0, t1]| [t0.min(t1), t0.max(t1)]);
+        let ranges = ranges.map(ascending);
         return Some(Compared::Told(Alongside::Crossing(t, ranges)));
     }
     let most_m = aside_m
@@ -168,7 +168,11 @@ fn compare(curves: [&CurveOn; 2], pieces: [&Hull; 2]) -> Option<Compared> {
         .fold(0.0_f64, |most, aside| most.max(aside.abs()));
     let blur_m = 2.0 * LEBESGUE * 2.0 * POSITION * curves[0].ellipsoid().a_m;
     let is_blurred = most_m <= blur_m && rest_m <= 0.5 * blur_m;
-    is_blurred.then_some(Compared::Blurred)
+    is_blurred.then(|| Compared::Blurred(ranges.map(ascending)))
+}
+
+fn ascending([a, b]: [f64; 2]) -> [f64; 2] {
+    [a.min(b), a.max(b)]
 }
 
 /// Whether a piece advances everywhere along its chord by nine tenths of its speed at least.

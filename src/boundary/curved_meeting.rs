@@ -32,6 +32,10 @@ impl Traced {
     }
 }
 
+/// Pairs of pieces looked at that rounding does not tell apart: curves that meet at an angle do so in a
+/// few, and what is one line for long is not worth more.
+const MOST_TOGETHER: usize = 8;
+
 /// Pairs of pieces looked at before two edges are left unclear.
 const MOST_PIECES: usize = 4096;
 
@@ -46,6 +50,7 @@ pub(crate) fn curved_meetings(
     let mut crossings: Vec<DVec3> = Vec::new();
     let mut stack = vec![(traced[0].hull, traced[1].hull)];
     let mut settled: Vec<[[f64; 2]; 2]> = Vec::new();
+    let (mut together, mut together_count) = (Vec::new(), 0);
     let mut pieces = 0;
     let mut place = |crossings: &mut Vec<DVec3>, t: f64| {
         crossings.push(first.ecef(t));
@@ -78,9 +83,13 @@ pub(crate) fn curved_meetings(
                 settled.push(ranges);
                 continue;
             }
-            Some(Alongside::Together) => {
-                found(Meeting::Unclear);
-                return pieces;
+            Some(Alongside::Together(ranges)) => {
+                together.extend(ends_within(edges, ranges));
+                together_count += 1;
+                if together_count < MOST_TOGETHER {
+                    continue;
+                }
+                break;
             }
             None => {}
         }
@@ -92,6 +101,12 @@ pub(crate) fn curved_meetings(
             stack.extend(b.parts(second).map(|part| (a, part)));
         }
     }
+    together.sort_unstable();
+    together.dedup();
+    if together_count > 0 && together.is_empty() {
+        together.push(Meeting::Unclear);
+    }
+    together.into_iter().for_each(&mut *found);
     // All pieces next to a touching point touch: it is one. Those next to a crossing may, too.
     let is_new = |&(at, _): &(DVec3, Meeting)| {
         crossings
@@ -103,6 +118,17 @@ pub(crate) fn curved_meetings(
         .into_iter()
         .for_each(|(_, meeting)| found(meeting));
     pieces
+}
+
+/// The ends of either edge within these ranges of both, where they are as good as one.
+fn ends_within(edges: [&Edge; 2], ranges: [[f64; 2]; 2]) -> impl Iterator<Item = Meeting> {
+    let ends = move |which: usize| {
+        let ([t0, t1], edge) = (ranges[which], edges[which]);
+        let ends = [(t0 == 0.0, edge.from), (t1 == 1.0, edge.to)];
+        ends.into_iter().filter(|end| end.0).map(|end| end.1)
+    };
+    let on_second = ends(0).map(Meeting::NodeOnSecond);
+    on_second.chain(ends(1).map(Meeting::NodeOnFirst))
 }
 
 /// What short pieces that touch have in common: an end of one edge, or else a crossing so flat that

@@ -203,3 +203,37 @@ fn a_lune_from_pole_to_pole_is_filled_however_far_chords_may_stray() {
         }
     }
 }
+
+#[test]
+fn slivers_of_rhumbs_a_few_micrometres_wide_are_beside_others_what_they_are_alone() {
+    // Where two of its sides cross, a third passes within rounding.
+    let sliver = [
+        (-90.000_099_999_912_69, 30.000_499_999_985_447),
+        (-90.000_100_000_014_56, 30.000_500_000_072_76),
+        (-89.999_300_000_014_56, 30.000_700_000_072_758),
+        (-90.000_100_000_014_56, 30.000_499_999_956_343),
+        (-89.999_3, 30.000_7),
+    ];
+    let beside = [
+        (-90.000_099_999_912_69, 30.000_499_999_985_447),
+        (-89.999_3, 30.000_7),
+        (-89.999_300_000_014_56, 30.000_700_000_072_758),
+        (-90.000_1, 30.000_5),
+        (-90.000_8, 29.999_2),
+        (-89.999_300_000_014_56, 30.000_700_000_072_758),
+    ];
+    let [beside, sliver] = [&beside[..], &sliver[..]].map(|ring| smaller(EdgeKind::Rhumb, &[ring]));
+    let options = MeshOptions {
+        ellipsoid: Ellipsoid::MARS,
+        ..MeshOptions::default()
+    };
+    for regions in [vec![sliver.clone()], vec![beside, sliver]] {
+        let mesh = FillMesh::build(&regions, &options).unwrap();
+        let fill = regions.len() as u32 - 1;
+        assert!(mesh.area_m2(fill) < 1e-3);
+        let locator = Locator::new(&mesh);
+        for elsewhere in [(-89.999_96, 30.000_06), (10.0, 20.0), (0.0, 90.0)] {
+            assert!(!locator.contains(fill, LonLat::new(elsewhere.0, elsewhere.1)));
+        }
+    }
+}
