@@ -46,7 +46,7 @@ pub(crate) fn densify(
     room: &VertexRoom,
 ) -> DenseChain {
     // Deviations that cannot be bounded are infinite, and above every tolerance.
-    let tolerance_m = tolerance_m.max(MIN_TOLERANCE_M).min(f64::MAX);
+    let tolerance_m = tolerance_m.clamp(MIN_TOLERANCE_M, f64::MAX);
     let mut dense = DenseChain::default();
     let ecef_m = |node: u32| node_ecef_m[node as usize];
     for &edge in &chain.edges {
