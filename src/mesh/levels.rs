@@ -7,7 +7,6 @@ use rayon::prelude::*;
 use crate::{
     fill_mesh::{Arc, BoundaryVertex, FillMesh, Piece},
     limits::{Excess, Limits},
-    mesh::densify::MAX_CHORD,
     mesh::simplify::{KeptVertices, Simplifier},
 };
 
@@ -34,33 +33,36 @@ pub(crate) fn coarser(
     }
     let loops = piece_loops(mesh);
     let mut origins: Vec<u32> = (0..mesh.boundary.len() as u32).collect();
-    let coarsest_m = COARSEST * mesh.ellipsoid.a_m;
-    let mut tolerance_m = tolerance_m.max(1e-6 * mesh.ellipsoid.a_m) * STEP;
-    while tolerance_m <= coarsest_m {
+    let [least_m, coarsest_m] = [1e-6, COARSEST].map(|share| share * mesh.ellipsoid.a_m);
+    let first_m = tolerance_m.max(least_m) * STEP;
+    let mut tolerances_m =
+        std::iter::successors(Some(first_m), |tolerance_m| Some(tolerance_m * STEP))
+            .take_while(|&tolerance_m| tolerance_m <= coarsest_m);
+    loop {
         let finer = levels.last().unwrap_or(mesh);
         if finer.boundary.len() < WORTHWHILE {
-            break;
+            return Ok(levels);
         }
-        let max_chord_m = MAX_CHORD * mesh.ellipsoid.a_m;
-        let simplifier = Simplifier::new(finer, mesh, &origins, tolerance_m, max_chord_m);
-        let kept: Vec<KeptVertices> = finer
-            .arcs
-            .par_iter()
-            .map(|arc| simplifier.kept(arc))
-            .collect();
-        let kept_count: usize = kept.iter().map(|kept| kept.vertices.len()).sum();
-        if kept_count as f64 <= SHARE * finer.boundary.len() as f64 {
-            let mut level = simplified(finer, &kept);
-            let loops_of = |piece: usize| loop_vertices(&level.arcs, &loops[piece]);
-            let loops_of: Vec<_> = (0..loops.len()).into_par_iter().map(loops_of).collect();
-            level.add_caps(|piece| loops_of[piece].clone(), inside_sr, limits)?;
-            let vertices = kept.iter().flat_map(|kept| &kept.vertices);
-            origins = vertices.map(|&vertex| origins[vertex as usize]).collect();
-            levels.push(level);
-        }
-        tolerance_m *= STEP;
+        let simplifier = Simplifier::new(finer, mesh, &origins);
+        let most = SHARE * finer.boundary.len() as f64;
+        let few = |kept: &Vec<KeptVertices>| {
+            kept.iter().map(|kept| kept.vertices.len()).sum::<usize>() as f64 <= most
+        };
+        let Some(kept) = tolerances_m
+            .by_ref()
+            .map(|tolerance_m| simplifier.kept(tolerance_m))
+            .find(few)
+        else {
+            return Ok(levels);
+        };
+        let mut level = simplified(finer, &kept);
+        let loops_of = |piece: usize| loop_vertices(&level.arcs, &loops[piece]);
+        let loops_of: Vec<_> = (0..loops.len()).into_par_iter().map(loops_of).collect();
+        level.add_caps(|piece| loops_of[piece].clone(), inside_sr, limits)?;
+        let vertices = kept.iter().flat_map(|kept| &kept.vertices);
+        origins = vertices.map(|&vertex| origins[vertex as usize]).collect();
+        levels.push(level);
     }
-    Ok(levels)
 }
 
 /// A mesh without caps of the vertices that are kept of each arc.

@@ -7,16 +7,22 @@
 //! to. So each arc is simplified by itself, and neighbours agree.
 
 use glam::{DVec2, DVec3};
+use rayon::prelude::*;
 
 use crate::{
     ellipsoid::Ellipsoid,
     fill_mesh::{Arc, FillMesh},
+    mesh::densify::MAX_CHORD,
     mesh::vertex_tree::VertexTree,
 };
 
 /// Recursions that split at the farthest vertex; further ones split in the middle, so that the time stays
 /// bounded whatever the shape.
 const MAX_FARTHEST_SPLITS: u32 = 40;
+
+/// So many vertices of other boundary are looked at for a chord, more for a short polyline.
+const MOST_NEAR: usize = 64;
+const MOST_LOOKS: usize = 4096;
 
 /// The vertices of an arc that are kept.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -35,9 +41,6 @@ pub(crate) struct Simplifier<'a> {
     finest: &'a FillMesh,
     origins: &'a [u32],
     tree: VertexTree<'a>,
-    /// How far, metres, chords may lie beside the true edges.
-    tolerance_m: f64,
-    max_chord_m: f64,
 }
 
 /// A run of an arc's vertices and what a chord in its place would be.
@@ -48,25 +51,22 @@ struct Section {
 }
 
 impl<'a> Simplifier<'a> {
-    pub(crate) fn new(
-        mesh: &'a FillMesh,
-        finest: &'a FillMesh,
-        origins: &'a [u32],
-        tolerance_m: f64,
-        max_chord_m: f64,
-    ) -> Self {
+    pub(crate) fn new(mesh: &'a FillMesh, finest: &'a FillMesh, origins: &'a [u32]) -> Self {
         Self {
             mesh,
             finest,
             origins,
             tree: VertexTree::new(&mesh.vertices[..mesh.boundary.len()]),
-            tolerance_m,
-            max_chord_m,
         }
     }
 
-    /// What is kept of an arc: always its ends.
-    pub(crate) fn kept(&self, arc: &Arc) -> KeptVertices {
+    /// What is kept of each arc, always its ends, where chords may lie `tolerance_m` beside the true edges.
+    pub(crate) fn kept(&self, tolerance_m: f64) -> Vec<KeptVertices> {
+        let arcs = self.mesh.arcs.par_iter();
+        arcs.map(|arc| self.kept_of(arc, tolerance_m)).collect()
+    }
+
+    fn kept_of(&self, arc: &Arc, tolerance_m: f64) -> KeptVertices {
         let mut kept = KeptVertices::default();
         let last = arc.first_vertex + arc.vertex_count - 1;
         // Sections still to be drawn, the first on top.
@@ -76,7 +76,7 @@ impl<'a> Simplifier<'a> {
             splits: 0,
         }];
         while let Some(section) = open.pop() {
-            match self.split(&section) {
+            match self.split(&section, tolerance_m) {
                 Ok(deviation_m) => {
                     kept.vertices.push(section.first);
                     kept.deviations_m.push(deviation_m);
@@ -106,7 +106,7 @@ impl<'a> Simplifier<'a> {
     }
 
     /// The deviation of a chord in the section's place, or the vertex to split it at.
-    fn split(&self, section: &Section) -> Result<f32, u32> {
+    fn split(&self, section: &Section, tolerance_m: f64) -> Result<f32, u32> {
         let &Section { first, last, .. } = section;
         if last == first + 1 {
             return Ok(self.mesh.boundary[first as usize].deviation_m);
@@ -127,7 +127,8 @@ impl<'a> Simplifier<'a> {
                 most.max(chord.distance_beside_m(point_m))
             });
         let deviation_m = f64::from(stored_m) + beside_m;
-        let too_coarse = deviation_m > self.tolerance_m || chord.length_m > self.max_chord_m;
+        let max_chord_m = MAX_CHORD * self.mesh.ellipsoid.a_m;
+        let too_coarse = deviation_m > tolerance_m || chord.length_m > max_chord_m;
         if too_coarse || self.is_blocked(section, &chord, beside_m) {
             return Err(farthest);
         }
@@ -142,13 +143,17 @@ impl<'a> Simplifier<'a> {
         let own_m = &self.mesh.vertices[section.first as usize..=section.last as usize];
         let chart = Gnomonic::new(ellipsoid, 0.5 * (chord.a_m + chord.b_m));
         let polygon: Vec<DVec2> = own_m.iter().map(|&point_m| chart.of(point_m)).collect();
+        // Where more is near than this, it is not looked at: the time stays bounded whatever the shape.
+        let mut left = MOST_NEAR + MOST_LOOKS / polygon.len();
         // Everything between is within `beside_m` of the chord, but for the bulge of the ellipsoid.
         let reach_m = beside_m + ellipsoid.chord_sag_m(chord.length_m) + 1e-3;
         self.tree
             .any_near([chord.a_m, chord.b_m], reach_m, |vertex, point_m| {
-                !own.contains(&vertex)
-                    && is_inside(chart.of(point_m), &polygon)
-                    && !own_m.contains(&point_m)
+                if own.contains(&vertex) {
+                    return false;
+                }
+                left = left.saturating_sub(1);
+                left == 0 || is_inside(chart.of(point_m), &polygon) && !own_m.contains(&point_m)
             })
     }
 }
