@@ -25,6 +25,9 @@ pub struct TargetFormat {
 pub struct Ground {
     layout: wgpu::BindGroupLayout,
     group: wgpu::BindGroup,
+    host_view: wgpu::Buffer,
+    /// Width of the world picture, pixels.
+    picture_px: u32,
     specialisation: Specialisation,
     shape: Shape,
 }
@@ -50,13 +53,14 @@ impl Ground {
     ) -> Result<Self, String> {
         let world = Picture::world()?;
         let layout = shared_layout(&gpu.device);
-        let host_view = HostView::new(ellipsoid, eye, world.size_px.x);
+        let picture_px = world.size_px.x;
+        let host_view = HostView::new(ellipsoid, eye, picture_px);
         let uniform = gpu
             .device
             .create_buffer_init(&wgpu::util::BufferInitDescriptor {
                 label: Some("host view"),
                 contents: bytemuck::bytes_of(&host_view),
-                usage: wgpu::BufferUsages::UNIFORM,
+                usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
             });
         let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
             label: Some("smooth"),
@@ -98,9 +102,21 @@ impl Ground {
         Ok(Self {
             layout,
             group,
+            host_view: uniform,
+            picture_px,
             specialisation: host_view.specialisation(),
             shape,
         })
+    }
+
+    /// The bare globe seen by another camera, not far from the first.
+    pub fn look(&mut self, gpu: &Gpu, ellipsoid: &Ellipsoid, eye: &Eye) {
+        let host_view = HostView::new(ellipsoid, eye, self.picture_px);
+        gpu.queue
+            .write_buffer(&self.host_view, 0, bytemuck::bytes_of(&host_view));
+        if let Shape::Globe(globe) = &mut self.shape {
+            *globe = Globe::new(ellipsoid, eye);
+        }
     }
 
     /// Between which heights the ground lies.

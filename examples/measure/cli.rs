@@ -30,6 +30,9 @@ pub struct Arguments {
     /// How far, pixels, a drawn boundary may lie from the true one.
     #[arg(long, default_value = "0.25", value_parser = parse_budget)]
     pub pixel_error: f64,
+    /// Move the camera a little from frame to frame: nothing can be kept from the last one.
+    #[arg(long)]
+    pub moving: bool,
     /// Do not compare the pictures with the true boundaries.
     #[arg(long)]
     pub no_error: bool,

@@ -5,7 +5,7 @@ mod chart;
 use std::collections::BTreeSet;
 
 use crate::{
-    plots::chart::{Axis, Chart, Point, Series},
+    plots::chart::{Axis, Chart, Lines, Point, Series},
     row::Row,
 };
 
@@ -29,7 +29,7 @@ pub fn all(rows: &[Row]) -> Result<Vec<(String, String)>, String> {
                 logarithmic: false,
             },
             series: series.into_iter().collect(),
-            joined: false,
+            lines: Lines::ParetoFront,
         };
         plots.push((format!("trade-offs-{scene}.svg"), chart.svg()?));
     }
@@ -49,7 +49,7 @@ pub fn all(rows: &[Row]) -> Result<Vec<(String, String)>, String> {
                 logarithmic: true,
             },
             series,
-            joined: true,
+            lines: Lines::Series,
         };
         plots.push((format!("{sweep}.svg"), chart.svg()?));
     }

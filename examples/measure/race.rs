@@ -27,7 +27,8 @@ const LEAST_FRAMES: usize = 3;
 /// One entry and what its frames took.
 struct Contender<'a> {
     entry: &'a Entry,
-    stage: &'a Stage,
+    /// Index of its stage.
+    stage: usize,
     technique: Box<dyn Technique>,
     wall_ms: Vec<f64>,
     /// Empty where the system does not tell.
@@ -36,11 +37,13 @@ struct Contender<'a> {
 }
 
 /// Times `frames` frames of each entry, one of each in turn: what slows the machine for a while slows them
-/// alike. Then counts their work, and judges their pictures if there is a judge. `stages` are the entries'.
+/// alike. Then counts their work, and judges their pictures if there is a judge. `stage_of` tells
+/// the stage of each entry.
 pub fn run(
     gpu: &Gpu,
     heat: &Heat,
-    stages: &[&Stage],
+    stages: &mut [Stage],
+    stage_of: &[usize],
     frames: u32,
     judge: Option<&Judge>,
     progress: &Progress,
@@ -49,14 +52,17 @@ pub fn run(
     let mut contenders: Vec<Result<Contender<'_>, String>> = heat
         .entries
         .iter()
-        .zip(stages)
-        .map(|(entry, &stage)| Contender::new(gpu, entry, stage))
+        .zip(stage_of)
+        .map(|(entry, &stage)| Contender::new(gpu, entry, stage, &stages[stage]))
         .collect();
     progress.step("timing frames");
     progress.count(WARM_UP + frames);
     for frame in 0..WARM_UP + frames {
+        for stage in &mut *stages {
+            stage.advance(gpu, frame);
+        }
         for contender in contenders.iter_mut().flatten() {
-            contender.draw(gpu, frame >= WARM_UP)?;
+            contender.draw(gpu, &stages[contender.stage], frame >= WARM_UP)?;
         }
         progress.advance();
     }
@@ -67,10 +73,14 @@ pub fn run(
         .find(is_globe)
         .map(|globe| (globe.wall_ms.clone(), globe.processor_ms.clone()));
     progress.step("judging pictures");
+    for stage in &mut *stages {
+        stage.advance(gpu, 0);
+    }
     let mut rows = Vec::new();
-    for ((contender, entry), stage) in contenders.into_iter().zip(&heat.entries).zip(stages) {
+    for ((contender, entry), stage) in contenders.into_iter().zip(&heat.entries).zip(stage_of) {
+        let stage = &stages[*stage];
         let outcome = match contender {
-            Ok(contender) => Ok(contender.measured(gpu, globe.as_ref(), judge)?),
+            Ok(contender) => Ok(contender.measured(gpu, stage, globe.as_ref(), judge)?),
             Err(reason) => Err(reason),
         };
         rows.push(Row {
@@ -86,10 +96,10 @@ pub fn run(
 
 impl<'a> Contender<'a> {
     /// Or why it cannot draw the stage.
-    fn new(gpu: &Gpu, entry: &'a Entry, stage: &'a Stage) -> Result<Self, String> {
+    fn new(gpu: &Gpu, entry: &'a Entry, index: usize, stage: &Stage) -> Result<Self, String> {
         Ok(Self {
             entry,
-            stage,
+            stage: index,
             technique: entry.technique.make(gpu, stage, Paint::Colors)?,
             wall_ms: Vec::new(),
             processor_ms: Vec::new(),
@@ -97,13 +107,13 @@ impl<'a> Contender<'a> {
         })
     }
 
-    fn draw(&mut self, gpu: &Gpu, timed: bool) -> Result<(), String> {
+    fn draw(&mut self, gpu: &Gpu, stage: &Stage, timed: bool) -> Result<(), String> {
         let spent_ms: f64 = self.wall_ms.iter().sum();
         if self.wall_ms.len() >= LEAST_FRAMES && spent_ms > ENOUGH.as_secs_f64() * 1e3 {
             return Ok(());
         }
         let (processor, start) = (ProcessorTime::now(), Instant::now());
-        self.cost = self.technique.draw(gpu, self.stage, None)?;
+        self.cost = self.technique.draw(gpu, stage, None)?;
         let wall_ms = milliseconds_since(start);
         let processor_ms = processor.elapsed_ms();
         if timed {
@@ -116,6 +126,7 @@ impl<'a> Contender<'a> {
     fn measured(
         mut self,
         gpu: &Gpu,
+        stage: &Stage,
         globe: Option<&(Vec<f64>, Vec<f64>)>,
         judge: Option<&Judge>,
     ) -> Result<Measured, String> {
@@ -126,13 +137,13 @@ impl<'a> Contender<'a> {
         };
         let counted = match &queries {
             Some(queries) => {
-                self.technique.draw(gpu, self.stage, Some(queries))?;
+                self.technique.draw(gpu, stage, Some(queries))?;
                 Some(queries.read(gpu)?)
             }
             None => None,
         };
         let error = match judge {
-            Some(judge) => self.error(gpu, judge)?,
+            Some(judge) => self.error(gpu, stage, judge)?,
             None => None,
         };
         Ok(Measured {
@@ -151,15 +162,20 @@ impl<'a> Contender<'a> {
     }
 
     /// `None` where the picture has no numbers of fills.
-    fn error(&self, gpu: &Gpu, judge: &Judge) -> Result<Option<PictureError>, String> {
+    fn error(
+        &self,
+        gpu: &Gpu,
+        stage: &Stage,
+        judge: &Judge,
+    ) -> Result<Option<PictureError>, String> {
         if self.entry.technique == TechniqueName::Globe {
             return Ok(None);
         }
-        let made = self.entry.technique.make(gpu, self.stage, Paint::Numbers);
+        let made = self.entry.technique.make(gpu, stage, Paint::Numbers);
         let Ok(mut technique) = made else {
             return Ok(None);
         };
-        technique.draw(gpu, self.stage, None)?;
+        technique.draw(gpu, stage, None)?;
         let texels = gpu.read_texture(technique.color())?;
         let (texels, _) = texels.as_chunks::<4>();
         let drawn: Vec<u32> = texels.iter().copied().map(id_of_color).collect();

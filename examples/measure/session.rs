@@ -55,6 +55,7 @@ fn heats(arguments: &Arguments) -> Result<Vec<Heat>, String> {
         size_px: arguments.size,
         pixel_error: arguments.pixel_error,
         yardstick: Yardstick::default(),
+        moving: arguments.moving,
     };
     let mut heats = Vec::new();
     for word in &arguments.scene {
@@ -96,11 +97,11 @@ fn measure(
         .first()
         .filter(|stage| !arguments.no_error && !stage.scene.regions.is_empty())
         .map(Judge::new);
-    let stages: Vec<&Stage> = stage_of.into_iter().map(|index| &stages[index]).collect();
     race::run(
         gpu,
         heat,
-        &stages,
+        &mut stages,
+        &stage_of,
         arguments.frames,
         judge.as_ref(),
         progress,
@@ -115,6 +116,7 @@ fn write(arguments: &Arguments, gpu: &Gpu, rows: &[Row]) -> Result<(), String> {
             "size": [arguments.size.x, arguments.size.y],
             "frames": arguments.frames,
             "pixel_error": arguments.pixel_error,
+            "moving": arguments.moving,
             "rows": rows.iter().map(Row::json).collect::<Vec<_>>(),
         });
         outputs.add(path, format!("{report:#}\n").into_bytes());

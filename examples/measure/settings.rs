@@ -9,6 +9,8 @@ pub struct Settings {
     /// [`globefill::Frame::pixel_error`].
     pub pixel_error: f64,
     pub yardstick: Yardstick,
+    /// Whether the camera moves from frame to frame.
+    pub moving: bool,
 }
 
 /// How the doubled vertices are stored and raised.

@@ -2,6 +2,7 @@
 
 use std::time::Instant;
 
+use glam::UVec2;
 use globefill::{DepthConvention, Ellipsoid, FillMesh, Frame, HeightRange, MeshOptions};
 
 use crate::{
@@ -20,6 +21,9 @@ const TERRAIN: HeightRange = HeightRange {
     min_m: -500.0,
     max_m: 9000.0,
 };
+
+/// How far east a camera moves from frame to frame: some tenth of a pixel.
+const STEP_DEG_PER_M: f64 = 1e-9;
 
 /// A scene, ready to be drawn.
 pub struct Stage {
@@ -51,12 +55,7 @@ impl Stage {
         };
         let mesh = FillMesh::build(&scene.regions, &options).map_err(|error| error.to_string())?;
         let build_ms = milliseconds_since(start);
-        let shot = Shot {
-            fov_deg: scene.fov_deg(size_px),
-            size_px,
-            depth: DepthConvention::Reversed,
-        };
-        let eye = Eye::over_level(&ellipsoid, scene.ground_m, &scene.viewpoint, shot);
+        let eye = eye(scene, size_px, 0);
         Ok(Self {
             ground: Ground::new(gpu, &ground(&ellipsoid, scene), None, &eye)?,
             frame: Frame {
@@ -72,6 +71,31 @@ impl Stage {
             build_ms,
         })
     }
+}
+
+impl Stage {
+    /// Moves the camera to where it is in a frame, counted from 0, if it moves.
+    pub fn advance(&mut self, gpu: &Gpu, frame: u32) {
+        if !self.settings.moving {
+            return;
+        }
+        self.eye = eye(&self.scene, self.settings.size_px, frame);
+        self.frame.camera = self.eye.camera;
+        let ground = ground(&self.ellipsoid, &self.scene);
+        self.ground.look(gpu, &ground, &self.eye);
+    }
+}
+
+/// The camera of a frame.
+fn eye(scene: &Scene, size_px: UVec2, frame: u32) -> Eye {
+    let shot = Shot {
+        fov_deg: scene.fov_deg(size_px),
+        size_px,
+        depth: DepthConvention::Reversed,
+    };
+    let mut viewpoint = scene.viewpoint;
+    viewpoint.foot.lon_deg += STEP_DEG_PER_M * viewpoint.height_m * f64::from(frame);
+    Eye::over_level(&Ellipsoid::WGS84, scene.ground_m, &viewpoint, shot)
 }
 
 /// The ellipsoid that is as high everywhere, within some millimetres a kilometre: half the flattening's

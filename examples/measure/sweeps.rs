@@ -184,6 +184,7 @@ mod tests {
             size_px: glam::UVec2::new(64, 36),
             pixel_error: DEFAULT_BUDGET_PX,
             yardstick: Yardstick::default(),
+            moving: false,
         };
         for heat in all(settings).unwrap() {
             assert_eq!(heat.entries[0].technique, TechniqueName::Globe);

@@ -4,6 +4,14 @@ use plotters::{coord::Shift, prelude::*};
 
 const SIZE_PX: (u32, u32) = (900, 560);
 const FONT: (&str, u32) = ("sans-serif", 15);
+/// Of series, and where their labels start.
+const COLORS: [RGBColor; 4] = [
+    RGBColor(190, 30, 45),
+    RGBColor(20, 120, 60),
+    RGBColor(120, 60, 160),
+    RGBColor(20, 90, 190),
+];
+const LABELS_PX: [(i32, i32); 3] = [(9, -16), (-34, -6), (9, 6)];
 
 /// What is drawn.
 pub struct Chart {
@@ -11,8 +19,16 @@ pub struct Chart {
     pub x: Axis,
     pub y: Axis,
     pub series: Vec<Series>,
-    /// Whether points of a series are joined by lines.
-    pub joined: bool,
+    pub lines: Lines,
+}
+
+/// What joins points.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Lines {
+    /// Those of each series, in order.
+    Series,
+    /// Those of all series that none beats on both axes.
+    ParetoFront,
 }
 
 pub struct Axis {
@@ -74,8 +90,16 @@ impl Chart {
             .light_line_style(WHITE)
             .label_style(FONT)
             .draw()?;
+        if self.lines == Lines::ParetoFront {
+            let front = pareto_front(points().map(|point| (point.x, point.y)).collect());
+            let steps = front
+                .iter()
+                .map(|&(x, y)| (self.x.place(x), self.y.place(y)));
+            chart.draw_series(LineSeries::new(steps, BLACK.mix(0.3).stroke_width(2)))?;
+        }
         for (index, series) in self.series.iter().enumerate() {
-            let color = Palette99::pick(index).to_rgba();
+            let color = COLORS[index % COLORS.len()].to_rgba();
+            let away_px = LABELS_PX[index % LABELS_PX.len()];
             let place = |point: &Point| (self.x.place(point.x), self.y.place(point.y));
             let dots = series
                 .points
@@ -85,7 +109,7 @@ impl Chart {
                 .draw_series(dots)?
                 .label(&series.name)
                 .legend(move |(x, y)| Circle::new((x + 8, y), 4, color.filled()));
-            if self.joined {
+            if self.lines == Lines::Series {
                 let line = series.points.iter().map(place);
                 chart.draw_series(LineSeries::new(line, color.stroke_width(2)))?;
             }
@@ -95,11 +119,9 @@ impl Chart {
             )?;
             chart.draw_series(series.points.iter().filter_map(|point| {
                 let label = point.label.clone()?;
-                // Labels of one series start above those of the next.
-                let above_px = 14 + 2 * index as i32;
                 Some(
                     EmptyElement::at(place(point))
-                        + Text::new(label, (9, -above_px), FONT.into_font().color(&color)),
+                        + Text::new(label, away_px, FONT.into_font().color(&color)),
                 )
             }))?;
         }
@@ -126,7 +148,12 @@ impl Axis {
 
     fn written(&self, place: f64) -> String {
         if self.logarithmic {
-            format!("{:.2e}", 10_f64.powf(place))
+            let value = 10_f64.powf(place);
+            if (0.01..1e4).contains(&value) {
+                format!("{}", (value * 100.0).round() / 100.0)
+            } else {
+                format!("{value:.0e}")
+            }
         } else {
             format!("{place:.0}")
         }
@@ -150,5 +177,29 @@ impl Axis {
         } else {
             (least.min(0.0), 1.15 * most.max(1e-9))
         }
+    }
+}
+
+/// The points that no other beats on both axes, from left to right.
+fn pareto_front(mut points: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
+    points.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    let mut least = f64::INFINITY;
+    points.retain(|&(_, y)| {
+        let is_better = y < least;
+        least = least.min(y);
+        is_better
+    });
+    points
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_front_has_what_nothing_beats() {
+        let points = vec![(2.0, 3.0), (1.0, 5.0), (3.0, 4.0), (4.0, 1.0), (1.0, 6.0)];
+        assert_eq!(pareto_front(points), [(1.0, 5.0), (2.0, 3.0), (4.0, 1.0)]);
+        assert!(pareto_front(Vec::new()).is_empty());
     }
 }

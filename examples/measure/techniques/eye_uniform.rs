@@ -90,14 +90,37 @@ impl EyeUniform {
             depth: row(DVec3::new(depth_scale, depth_offset, pull_m), 0.0),
         }
     }
+}
 
-    pub fn buffer(&self, gpu: &Gpu) -> wgpu::Buffer {
-        gpu.device
+/// The uniform on the GPU.
+pub struct EyeBuffer {
+    pub buffer: wgpu::Buffer,
+    held: EyeUniform,
+}
+
+impl EyeBuffer {
+    pub fn new(gpu: &Gpu, stage: &Stage) -> Self {
+        let held = EyeUniform::new(stage);
+        let buffer = gpu
+            .device
             .create_buffer_init(&wgpu::util::BufferInitDescriptor {
                 label: Some("eye"),
-                contents: bytemuck::bytes_of(self),
-                usage: wgpu::BufferUsages::UNIFORM,
-            })
+                contents: bytemuck::bytes_of(&held),
+                usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+            });
+        Self { buffer, held }
+    }
+
+    /// Uploads what a new camera has changed, and tells how many bytes.
+    pub fn update(&mut self, gpu: &Gpu, stage: &Stage) -> u64 {
+        let next = EyeUniform::new(stage);
+        let bytes: &[u8] = bytemuck::bytes_of(&next);
+        if bytes == bytemuck::bytes_of(&self.held) {
+            return 0;
+        }
+        gpu.queue.write_buffer(&self.buffer, 0, bytes);
+        self.held = next;
+        size_of::<EyeUniform>() as u64
     }
 }
 

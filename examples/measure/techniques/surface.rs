@@ -4,7 +4,7 @@ use bytemuck::{Pod, Zeroable};
 use globefill::wgpu::{self, util::DeviceExt};
 
 use super::{
-    eye_uniform::{self, EyeUniform},
+    eye_uniform::{self, EyeBuffer},
     fill_faces,
 };
 use crate::{
@@ -28,7 +28,8 @@ struct Vertex {
 pub struct Surface {
     canvas: Canvas,
     pipeline: wgpu::RenderPipeline,
-    eye: wgpu::BindGroup,
+    eye: EyeBuffer,
+    eye_group: wgpu::BindGroup,
     vertices: wgpu::Buffer,
     indices: wgpu::Buffer,
     index_count: u32,
@@ -42,13 +43,13 @@ impl Surface {
         let canvas = Canvas::new(gpu, stage, paint)?;
         let (vertices, indices) = mesh(stage, paint);
         let pipeline = pipeline(gpu, &canvas);
-        let uniform = EyeUniform::new(stage).buffer(gpu);
-        let eye = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        let eye = EyeBuffer::new(gpu, stage);
+        let eye_group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("surface"),
             layout: &pipeline.get_bind_group_layout(0),
             entries: &[wgpu::BindGroupEntry {
                 binding: 0,
-                resource: uniform.as_entire_binding(),
+                resource: eye.buffer.as_entire_binding(),
             }],
         });
         let buffer = |contents: &[u8], usage| {
@@ -63,6 +64,7 @@ impl Surface {
             canvas,
             pipeline,
             eye,
+            eye_group,
             vertices: buffer(bytemuck::cast_slice(&vertices), wgpu::BufferUsages::VERTEX),
             index_count: indices.len() as u32,
             indices: buffer(bytemuck::cast_slice(&indices), wgpu::BufferUsages::INDEX),
@@ -143,6 +145,7 @@ impl Technique for Surface {
         stage: &Stage,
         queries: Option<&InvocationQueries>,
     ) -> Result<Cost, String> {
+        let upload_bytes = self.eye.update(gpu, stage);
         let mut encoder = self.canvas.begin(gpu, stage);
         {
             let load = self.canvas.load();
@@ -151,7 +154,7 @@ impl Technique for Surface {
                 pass.begin_pipeline_statistics_query(&queries.set, 0);
             }
             pass.set_pipeline(&self.pipeline);
-            pass.set_bind_group(0, &self.eye, &[]);
+            pass.set_bind_group(0, &self.eye_group, &[]);
             pass.set_vertex_buffer(0, self.vertices.slice(..));
             pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
             pass.draw_indexed(0..self.index_count, 0, 0..1);
@@ -166,7 +169,7 @@ impl Technique for Surface {
         Ok(Cost {
             draws: 1,
             passes: 1,
-            upload_bytes: 0,
+            upload_bytes,
             gpu_bytes: self.vertices.size() + self.indices.size(),
             count: None,
         })

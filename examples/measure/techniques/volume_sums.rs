@@ -3,7 +3,7 @@
 
 use globefill::wgpu::{self, util::DeviceExt};
 
-use super::eye_uniform::{self, EyeUniform};
+use super::eye_uniform::{self, EyeBuffer};
 use crate::{
     canvas::{Canvas, Paint},
     host::gpu::Gpu,
@@ -22,7 +22,7 @@ pub struct VolumeSums {
     sums: wgpu::TextureView,
     resolve: wgpu::RenderPipeline,
     resolve_group: wgpu::BindGroup,
-    eye: wgpu::Buffer,
+    eye: EyeBuffer,
 }
 
 impl VolumeSums {
@@ -75,7 +75,7 @@ impl VolumeSums {
             ],
         });
         Ok(Self {
-            eye: EyeUniform::new(stage).buffer(gpu),
+            eye: EyeBuffer::new(gpu, stage),
             canvas,
             sums,
             resolve,
@@ -143,7 +143,11 @@ impl VolumeSums {
         buffers: &[&wgpu::Buffer],
     ) -> wgpu::BindGroup {
         let entries: Vec<_> = (0..)
-            .zip([&self.eye].into_iter().chain(buffers.iter().copied()))
+            .zip(
+                [&self.eye.buffer]
+                    .into_iter()
+                    .chain(buffers.iter().copied()),
+            )
             .map(|(binding, buffer)| wgpu::BindGroupEntry {
                 binding,
                 resource: buffer.as_entire_binding(),
@@ -158,12 +162,13 @@ impl VolumeSums {
 
     /// Two passes: the faces that `draw` draws, and the resolve.
     pub fn draw(
-        &self,
+        &mut self,
         gpu: &Gpu,
         stage: &Stage,
         queries: Option<&InvocationQueries>,
         draw: impl Fn(&mut wgpu::RenderPass<'_>),
     ) -> Result<Cost, String> {
+        let upload_bytes = self.eye.update(gpu, stage);
         let mut encoder = self.canvas.begin(gpu, stage);
         {
             let mut pass = self.count_pass(&mut encoder);
@@ -185,7 +190,7 @@ impl VolumeSums {
         Ok(Cost {
             draws: 2,
             passes: 2,
-            upload_bytes: 0,
+            upload_bytes,
             gpu_bytes: 0,
             count: None,
         })
