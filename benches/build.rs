@@ -3,6 +3,7 @@
 //! `cargo bench --bench build`
 
 use criterion::{Criterion, criterion_group, criterion_main};
+use earcut::Earcut;
 use globefill::{
     FillMesh, Locator, LonLat, MeshOptions, Region, countries::Dataset,
     geo_json::regions_from_geojson,
@@ -35,6 +36,23 @@ fn geojson_text() -> String {
     )
 }
 
+/// A yardstick: the same rings, as they are, triangulated on the plane of longitude and latitude.
+fn cut_on_the_plane(regions: &[Region]) -> usize {
+    let mut earcut = Earcut::new();
+    let (mut triangles, mut count) = (Vec::<u32>::new(), 0);
+    for polygon in regions.iter().flat_map(|region| &region.polygons) {
+        let mut starts = Vec::new();
+        let mut vertices: Vec<[f64; 2]> = Vec::new();
+        for ring in std::iter::once(&polygon.shell).chain(&polygon.holes) {
+            starts.push(vertices.len() as u32);
+            vertices.extend(ring.iter().map(|vertex| [vertex.lon_deg, vertex.lat_deg]));
+        }
+        earcut.earcut(vertices, &starts[1..], &mut triangles);
+        count += triangles.len() / 3;
+    }
+    count
+}
+
 fn build(criterion: &mut Criterion) {
     for (name, dataset) in [
         ("110m", Dataset::Countries110m),
@@ -47,6 +65,9 @@ fn build(criterion: &mut Criterion) {
         let regions = regions(dataset);
         criterion.bench_function(&format!("mesh/{name}"), |bencher| {
             bencher.iter(|| FillMesh::build(&regions, &MeshOptions::default()));
+        });
+        criterion.bench_function(&format!("earcut/{name}"), |bencher| {
+            bencher.iter(|| cut_on_the_plane(&regions));
         });
     }
     let text = geojson_text();
