@@ -1,6 +1,11 @@
 //! Rows for people.
 
-use crate::row::{Measured, Row};
+use globefill::CountTechnique;
+
+use crate::{
+    row::{Measured, Row},
+    technique::TechniqueName,
+};
 
 const HEADINGS: [&str; 14] = [
     "scene",
@@ -33,7 +38,16 @@ pub fn line(row: &Row) -> String {
         format!("  {} {}{mark}", variant.sweep, variant.value)
     });
     match &row.outcome {
-        Ok(measured) => format!("{start}{}{end}", columns(measured)),
+        Ok(measured) => {
+            let by_stencil = row.technique == TechniqueName::Winding
+                && measured.cost.count == Some(CountTechnique::Stencil);
+            let note = if by_stencil {
+                "  counted by stencil"
+            } else {
+                ""
+            };
+            format!("{start}{}{end}{note}", columns(measured))
+        }
         Err(reason) => format!("{start} refused: {reason}{end}"),
     }
 }
