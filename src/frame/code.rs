@@ -78,6 +78,12 @@ impl Code {
         Self::candidates(triangles_by_id.len() as u32).find(fits)
     }
 
+    /// The code of which sums need least room, whether or not all that is stored has it: what is drawn may.
+    pub(crate) fn sparest(triangles_by_id: &[u64]) -> Option<Self> {
+        Self::candidates(triangles_by_id.len() as u32)
+            .min_by_key(|code| code.largest_sums(triangles_by_id).into_iter().max())
+    }
+
     pub(crate) fn shape(&self) -> CodeShape {
         CodeShape {
             digits: self.digits,

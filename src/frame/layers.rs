@@ -11,7 +11,7 @@ mod tests;
 use crate::{
     error::RendererError,
     fill_mesh::{Bounds, FillMesh},
-    frame::code::{Code, Mantissa, PlaneSums},
+    frame::code::{Code, Mantissa},
     options::CountTechnique,
     style::FillStyle,
 };
@@ -26,9 +26,9 @@ const SPARE: u64 = 2;
 /// How fills are to be counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Counting {
-    /// By sums, in as few planes as hold those of what is stored.
+    /// By sums, in as few planes as hold those of what is stored, if there are so few.
     Winding,
-    /// By sums, with room to spare for those of refined walls.
+    /// By sums, with room to spare for those of refined walls, if it can be had.
     SpareWinding,
     /// Fill by fill.
     Stencil,
@@ -60,8 +60,6 @@ pub(crate) struct Layer {
     /// leave more head-room.
     pub fills: Vec<FillOf>,
     pub code: Code,
-    /// Upper bounds of |partial sum|, by plane, with everything drawn that is stored.
-    pub largest_sums: PlaneSums,
 }
 
 /// Layer and packed code of a piece.
@@ -81,7 +79,7 @@ pub(crate) struct Layering {
 }
 
 impl Layering {
-    /// Assigns layers and codes. Winding falls back to the stencil where head-room is not proven.
+    /// Assigns layers and codes. Whether sums have head-room is asked of what each frame draws.
     pub(crate) fn assign(
         meshes: &[Styled<'_>],
         wanted: Counting,
@@ -102,7 +100,9 @@ impl Layering {
             ids,
         } = Members::new(meshes, &pieces, &layer_of, layer_count);
         let fitting = |times: u64| -> Option<Vec<Code>> {
-            let code = |by_id: &Vec<u64>| Code::fitting(by_id, mantissa, times);
+            let code = |by_id: &Vec<u64>| {
+                Code::fitting(by_id, mantissa, times).or_else(|| Code::sparest(by_id))
+            };
             triangles.iter().map(code).collect()
         };
         let summed = match wanted {
@@ -117,12 +117,7 @@ impl Layering {
         let layers: Vec<Layer> = fills
             .into_iter()
             .zip(codes)
-            .zip(&triangles)
-            .map(|((fills, code), by_id)| Layer {
-                fills,
-                largest_sums: code.largest_sums(by_id),
-                code,
-            })
+            .map(|(fills, code)| Layer { fills, code })
             .collect();
         let codes = piece_codes(meshes, &pieces, &layer_of, &ids, &layers);
         Ok(Self {

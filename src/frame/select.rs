@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::{
-    fill_mesh::{FillMesh, Piece},
+    fill_mesh::{Arc, FillMesh, Piece},
     frame::code::PlaneSums,
     frame::edge_draws::{ArcEdges, EdgeDraws, EdgeWants},
     frame::edge_segments::EdgeSegments,
@@ -153,16 +153,30 @@ impl Selection {
 }
 
 impl LayerDraws {
-    /// Adds to `sums` what the refined walls may add to any pixel, by plane.
-    pub(crate) fn add_refined_sums(&self, mesh: &FillMesh, sums: &mut PlaneSums) {
-        for run in &self.patches {
-            let arc = &mesh.arcs[run.arc as usize];
+    /// Upper bounds, by plane, of |partial sum| at any pixel: all that is drawn of `mesh` added up.
+    pub(crate) fn add_sums(&self, mesh: &FillMesh, sums: &mut PlaneSums) {
+        let mut add = |triangles: usize, code: [u32; 4]| {
+            for (sum, digit) in sums.iter_mut().zip(code) {
+                *sum += triangles as u64 * u64::from(digit);
+            }
+        };
+        for run in &self.caps {
+            let code = self.codes[run.piece as usize + 1].to_le_bytes();
+            let triangles = run.triangles.len() * run.instances().len();
+            add(triangles, code.map(u32::from));
+        }
+        let weight = |arc: &Arc| {
             let [left, right] =
                 [arc.left, arc.right].map(|side| code_of(&self.codes, side).to_le_bytes());
-            let triangles = run.indices.len() as u64 / 3;
-            for (plane, sum) in sums.iter_mut().enumerate() {
-                *sum += triangles * u64::from(left[plane].abs_diff(right[plane]));
+            std::array::from_fn(|plane| left[plane].abs_diff(right[plane]).into())
+        };
+        if !self.walls.is_empty() {
+            for arc in &mesh.arcs {
+                add(2 * (arc.vertex_count as usize - 1), weight(arc));
             }
+        }
+        for run in &self.patches {
+            add(run.indices.len() / 3, weight(&mesh.arcs[run.arc as usize]));
         }
     }
 }

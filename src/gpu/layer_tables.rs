@@ -110,19 +110,10 @@ impl LayerTables {
             .collect()
     }
 
-    /// Whether sums stay exact with `refined[layer]` added to what is stored.
-    pub(crate) fn leave_room_for(&self, refined: &[PlaneSums]) -> bool {
+    /// Whether sums of at most `drawn[layer]` are exact.
+    pub(crate) fn leave_room_for(&self, drawn: &[PlaneSums]) -> bool {
         self.layering.technique == CountTechnique::Stencil
-            || self
-                .layering
-                .layers
-                .iter()
-                .zip(refined)
-                .all(|(layer, refined)| {
-                    let sums =
-                        std::array::from_fn(|plane| layer.largest_sums[plane] + refined[plane]);
-                    self.mantissa.holds(&sums)
-                })
+            || drawn.iter().all(|sums| self.mantissa.holds(sums))
     }
 }
 

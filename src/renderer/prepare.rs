@@ -72,7 +72,7 @@ impl Renderer {
     }
 
     /// The layers that this frame is counted in, the bytes uploaded for them, and what the frame shows:
-    /// with more planes, or those of the stencil, where refined walls leave no head-room for winding sums.
+    /// with more planes, or those of the stencil, where what is drawn leaves no head-room for winding sums.
     fn choose_layers(
         &mut self,
         frame: &Frame,
@@ -123,24 +123,24 @@ impl Renderer {
         LayerTables::new(&self.device, &from, counting, self.mantissa)
     }
 
-    /// Whether the sums of this frame, refined walls included, are proven exact.
+    /// Whether the sums of this frame are proven exact.
     fn has_head_room(
         &self,
         selections: &[Selected],
         counting: Counting,
     ) -> Result<bool, RendererError> {
         let layers = self.layers(counting)?;
-        let refined: Vec<PlaneSums> = (0..layers.layering.layers.len())
+        let drawn: Vec<PlaneSums> = (0..layers.layering.layers.len())
             .map(|layer| {
                 let mut sums = PlaneSums::default();
                 for selected in selections {
-                    let mesh = &self.meshes[&selected.id].mesh;
-                    selected.selection.layers[layer].add_refined_sums(mesh, &mut sums);
+                    let mesh = self.meshes[&selected.id].level(selected.level);
+                    selected.selection.layers[layer].add_sums(mesh, &mut sums);
                 }
                 sums
             })
             .collect();
-        Ok(layers.leave_room_for(&refined))
+        Ok(layers.leave_room_for(&drawn))
     }
 
     pub(super) fn layers(&self, counting: Counting) -> Result<&LayerTables, RendererError> {
