@@ -7,8 +7,9 @@ use glam::DVec3;
 
 use crate::{boundary::curved_meeting::Hull, curve::CurveOn};
 
-/// Pieces that share less than this, metres, and are not apart are left to bisection: they may touch.
-const SHORT_M: f64 = 1.0;
+/// Shorter pieces, metres, are left to bisection, which needs some thousand steps for a kilometre; it knows
+/// what touches, and splits what is small where the lattice can follow.
+const SHORT_M: f64 = 1e3;
 
 /// Pieces that end this far before each other, metres, have nothing in common.
 const GAP_M: f64 = 1e-6;
@@ -30,7 +31,7 @@ pub(super) enum Alongside {
     /// They cross once, at this parameter of the first curve; on these ranges of the curves there is
     /// nothing else.
     Crossing(f64, [[f64; 2]; 2]),
-    /// On these ranges, a metre long or more, they are no further apart than positions are rounded.
+    /// On these ranges, a kilometre long or more, they are no further apart than positions are rounded.
     Together([[f64; 2]; 2]),
 }
 
@@ -86,6 +87,9 @@ fn compared(curves: [&CurveOn; 2], pieces: [&Hull; 2]) -> Compared {
 
 fn compare(curves: [&CurveOn; 2], pieces: [&Hull; 2]) -> Option<Compared> {
     let [first, second] = pieces;
+    if first.length_m().min(second.length_m()) < SHORT_M {
+        return None;
+    }
     if !curves
         .iter()
         .zip(pieces)

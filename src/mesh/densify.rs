@@ -45,8 +45,7 @@ pub(crate) fn densify(
     tolerance_m: f64,
     room: &VertexRoom,
 ) -> DenseChain {
-    // Deviations that cannot be bounded are infinite, and above every tolerance.
-    let tolerance_m = tolerance_m.clamp(MIN_TOLERANCE_M, f64::MAX);
+    let tolerance_m = tolerance_m.max(MIN_TOLERANCE_M);
     let mut dense = DenseChain::default();
     let ecef_m = |node: u32| node_ecef_m[node as usize];
     for &edge in &chain.edges {
@@ -86,7 +85,9 @@ impl DenseChain {
             } else {
                 curve.deviation_bound_m(t0, t1)
             };
-            if deviation_m > tolerance_m && depth < MAX_DEPTH {
+            // Deviations that cannot be bounded are infinite.
+            let strays = deviation_m > tolerance_m || deviation_m.is_infinite();
+            if strays && depth < MAX_DEPTH {
                 let middle = 0.5 * (t0 + t1);
                 open.push((middle, t1, depth + 1));
                 open.push((t0, middle, depth + 1));

@@ -181,8 +181,8 @@ fn nothing_is_wrong_over_any_zone() {
     assert_eq!(wrong_zones(&[Terrain::Rough], &[Look::Down]), []);
 }
 
-/// A wall seen edge-on from 1 m against the flank of a mountain leaves a pixel in some thirty such
-/// pictures on the wrong side, of plain geodesic edges no less than of zones.
+/// A wall seen edge-on from 1 m against the flank of a mountain leaves a pixel of these sixty pictures
+/// on the wrong side, and as many of plain geodesic edges.
 #[test]
 #[ignore = "known issue: it fails"]
 fn known_issue_edge_on_walls_over_mountains() {
