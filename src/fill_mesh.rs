@@ -53,7 +53,7 @@ pub struct FillMesh {
     /// Cap triangles, counter-clockwise seen from outside, as indices into `vertices`; the
     /// triangles of a piece are contiguous, and so are the pieces of a fill.
     pub cap_triangles: Vec<[u32; 3]>,
-    /// The same triangles in rows of neighbours, in the same order.
+    /// The same triangles in rows of neighbours, in the same order. None at all stand for a row a piece.
     pub cap_chunks: Vec<CapChunk>,
     /// Connected parts of fills, in fill order.
     pub pieces: Vec<Piece>,
@@ -154,6 +154,19 @@ impl Bounds {
 }
 
 impl FillMesh {
+    /// Makes each piece a row of triangles if there are no rows.
+    pub(crate) fn chunk_by_piece(&mut self) {
+        if self.cap_chunks.is_empty() {
+            let chunk = |(index, piece): (u32, &Piece)| CapChunk {
+                piece: index,
+                first_triangle: piece.first_triangle,
+                triangle_count: piece.triangle_count,
+                bounds: piece.bounds,
+            };
+            self.cap_chunks = (0..).zip(&self.pieces).map(chunk).collect();
+        }
+    }
+
     /// Meshes regions: one fill each, every polygon a piece, common borders stored once.
     ///
     /// Vertices are rounded to multiples of 2⁻³⁶° (1.6 µm on Earth), by which neighbours that print

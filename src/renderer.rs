@@ -82,7 +82,9 @@ struct CoarserLevel {
 }
 
 impl Resident {
-    fn new(device: &wgpu::Device, mesh: FillMesh) -> Self {
+    fn new(device: &wgpu::Device, mut mesh: FillMesh) -> Self {
+        mesh.chunk_by_piece();
+        mesh.coarser.iter_mut().for_each(FillMesh::chunk_by_piece);
         let level = |level| CoarserLevel {
             coarseness: Coarseness::of(level),
             gpu: OnceLock::new(),

@@ -85,7 +85,7 @@ fn nothing_is_wrong_beyond_the_budget() {
         }
         let greatest = subject.mesh.coarser.len() as u32;
         assert_eq!(levels[0], greatest, "from far off");
-        assert!(levels.iter().all(|&level| level > 0), "{levels:?}");
+        assert!(levels[..3].iter().all(|&level| level > 0), "{levels:?}");
     }
 }
 
