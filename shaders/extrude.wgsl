@@ -37,13 +37,15 @@ struct Arc {
     right: u32,
 }
 
-// Set in `arc_at` where a slot is the break behind its arc.
-const BREAK: u32 = 0x80000000u;
+// Boundary slots that share a first arc in `arc_at`.
+const BLOCK: u32 = 64u;
+// Set in a slot's byte where it is the break behind its arc.
+const BREAK: u32 = 0x80u;
 
 @group(0) @binding(0) var<uniform> frame: Frame;
 // Fixed point: xyz in 1/128 m, w three 10-bit fractions of 2^-17 m (x lowest).
 @group(1) @binding(0) var<storage, read> vertices: array<vec4<i32>>;
-// The arc of every boundary slot.
+// The arc of every boundary slot: for each block its first arc, then a byte a slot, which counts from there.
 @group(1) @binding(1) var<storage, read> arc_at: array<u32>;
 @group(1) @binding(2) var<storage, read> arcs: array<Arc>;
 // Winding code of each piece, plus one, in this view and layer; four digits of 8 bits.
@@ -115,9 +117,10 @@ struct WallCorner {
 fn wall_corner(k: u32) -> WallCorner {
     let slot = k >> 1u;
     let top = (k & 1u) == 0u;
-    let entry = arc_at[slot];
-    let arc = entry & ~BREAK;
-    if entry == arc {
+    let block = (slot / BLOCK) * (BLOCK / 4u + 1u);
+    let own = arc_at[block + 1u + (slot % BLOCK) / 4u] >> (8u * (slot % 4u));
+    let arc = arc_at[block] + (own & (BREAK - 1u));
+    if (own & BREAK) == 0u {
         return WallCorner(arc, slot, select(BOTTOM, TOP, top));
     }
     if top {

@@ -10,14 +10,17 @@ use crate::{
     gpu::fixed_point::encode,
 };
 
-/// Set in `arc_at` where a slot is the break behind its arc; the same in extrude.wgsl.
-const BREAK: u32 = 1 << 31;
+/// Boundary slots that share a first arc in `arc_at`; the same in extrude.wgsl. No more arcs begin in a
+/// block than a byte counts, since each takes three slots.
+const BLOCK: usize = 64;
+/// Set in a slot's byte where it is the break behind its arc; the same in extrude.wgsl.
+const BREAK: u8 = 1 << 7;
 
 /// Buffers of one mesh.
 pub(crate) struct GpuMesh {
     /// Boundary slots, arc after arc with a break behind each, then the caps' interior vertices.
     pub vertices: wgpu::Buffer,
-    /// The arc of every boundary slot.
+    /// The arc of every boundary slot, in blocks.
     pub arc_at: wgpu::Buffer,
     /// Sides of each arc.
     pub arcs: wgpu::Buffer,
@@ -99,13 +102,15 @@ impl GpuMesh {
 }
 
 impl FillMesh {
-    /// Bytes that the mesh takes on the GPU, this level of detail alone: 16 a vertex, 4 more a boundary
-    /// vertex, 12 a cap triangle, 28 an arc for its sides and the break behind it. Walls take none.
+    /// Bytes that the mesh takes on the GPU, this level of detail alone: 16 a vertex, 1 more a boundary
+    /// vertex, 12 a cap triangle, 25 an arc for its sides and the break behind it, and 4 for every 64 boundary
+    /// vertices. Walls take none.
     pub fn gpu_bytes(&self) -> u64 {
         let slots = self.boundary.len() + self.arcs.len();
         let vertices = self.vertices.len() + self.arcs.len();
         let arcs = size_of::<ArcRecord>() * self.arcs.len();
-        (16 * vertices + arcs + 4 * slots + 12 * self.cap_triangles.len()) as u64
+        let arc_at = (BLOCK + 4) * slots.div_ceil(BLOCK);
+        (16 * vertices + arcs + arc_at + 12 * self.cap_triangles.len()) as u64
     }
 }
 
@@ -140,11 +145,22 @@ fn arc_records(mesh: &FillMesh) -> Vec<ArcRecord> {
     mesh.arcs.iter().map(record).collect()
 }
 
+/// For each block of slots its first arc and a byte a slot, as words.
 fn arc_at_slots(mesh: &FillMesh) -> Vec<u32> {
-    let mut arc_at = Vec::with_capacity(mesh.boundary.len() + mesh.arcs.len());
+    let mut slots: Vec<(u32, u8)> = Vec::with_capacity(mesh.boundary.len() + mesh.arcs.len());
     for (index, arc) in (0..).zip(&mesh.arcs) {
-        arc_at.extend((0..arc.vertex_count).map(|_| index));
-        arc_at.push(index | BREAK);
+        slots.extend((0..arc.vertex_count).map(|_| (index, 0)));
+        slots.push((index, BREAK));
+    }
+    let mut arc_at = Vec::with_capacity(slots.len() / 4 + slots.len() / BLOCK + 1);
+    for block in slots.chunks(BLOCK) {
+        let first = block[0].0;
+        arc_at.push(first);
+        let mut bytes = [0; BLOCK];
+        for (byte, &(arc, is_break)) in bytes.iter_mut().zip(block) {
+            *byte = (arc - first) as u8 | is_break;
+        }
+        arc_at.extend(bytes.as_chunks().0.iter().copied().map(u32::from_le_bytes));
     }
     arc_at
 }

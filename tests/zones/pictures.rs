@@ -182,7 +182,7 @@ fn nothing_is_wrong_over_any_zone() {
 }
 
 /// A wall seen edge-on from 1 m against the flank of a mountain leaves a pixel of these sixty pictures
-/// on the wrong side, and as many of plain geodesic edges.
+/// on the wrong side.
 #[test]
 #[ignore = "known issue: it fails"]
 fn known_issue_edge_on_walls_over_mountains() {
