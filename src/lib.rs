@@ -7,8 +7,8 @@
 //! # Frame order
 //!
 //! 1. The host draws its surface.
-//! 2. [`Renderer::prepare`] with the camera in double precision: culls, refines the boundary near the
-//!    eye, uploads what changed.
+//! 2. [`Renderer::prepare`] with the camera in double precision: culls, chooses levels of detail, refines the
+//!    boundary near the eye, uploads what changed.
 //! 3. [`Renderer::count`], outside any pass, once the depth is final. The depth is attached read-only.
 //! 4. [`Renderer::resolve`] in a pass of the host's that does not have that depth attached.
 //! 5. The host draws what is to stay unfilled: models, labels.

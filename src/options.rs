@@ -137,7 +137,8 @@ pub struct Frame {
     pub camera: Camera,
     /// Size of the host's depth texture, pixels.
     pub size_px: UVec2,
-    /// Between which heights the host's surface lies. Both 0: the bare ellipsoid.
+    /// Between which heights the host's surface lies. Both 0: the bare ellipsoid. What stands higher, such as
+    /// a model, may be filled like the surface below it.
     pub terrain: HeightRange,
     /// How far, pixels, a drawn boundary may lie from the true one; 0 asks for the best there is.
     pub pixel_error: f64,
