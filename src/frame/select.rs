@@ -95,7 +95,13 @@ impl Selection {
             .map(|arc| !sight.outside_side_plane(&arc.bounds))
             .collect();
         let edges = ArcEdges::new(mesh, &shown, sight, wants);
-        for (index, arc) in mesh.arcs.iter().enumerate() {
+        // Coarser levels are drawn where they do as they are, and know no true edges.
+        let refinable = if mesh.curves.is_empty() {
+            &[]
+        } else {
+            &mesh.arcs[..]
+        };
+        for (index, arc) in refinable.iter().enumerate() {
             let shown_on = |side: Option<u32>| side.and_then(|piece| shown[piece as usize]);
             let seen = arc_seen[index] || edges.any(index);
             if seen && shown_on(arc.left) != shown_on(arc.right) {
