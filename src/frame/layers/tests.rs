@@ -133,16 +133,21 @@ fn meshes_that_may_meet_are_layered_and_hidden_fills_take_none() {
     assert_eq!(layers_of(&one), [vec![None, None], vec![Some(0)]]);
 }
 
+/// What is drawn may have room where all that is stored has none: frames are asked.
 #[test]
-fn without_head_room_the_stencil_counts() {
+fn where_not_all_has_head_room_sums_are_as_small_as_can_be() {
     let mesh = mesh(300, &[]);
     let styles = vec![FillStyle::default(); 300];
     let meshes = [Styled {
         mesh: &mesh,
         styles: &styles,
     }];
-    let layering = Layering::assign(&meshes, Counting::Winding, Mantissa::Half).expect("stencil");
-    assert_eq!(layering.technique, CountTechnique::Stencil);
+    let assign = |counting| Layering::assign(&meshes, counting, Mantissa::Half).expect("fits");
+    let layering = assign(Counting::Winding);
+    assert_eq!(layering.technique, CountTechnique::Winding);
+    let code = layering.layers[0].code;
+    assert_eq!((code.digits, code.base, code.check_bits), (3, 7, 2));
+    assert_eq!(assign(Counting::Stencil).technique, CountTechnique::Stencil);
 }
 
 #[test]
