@@ -48,8 +48,11 @@ const BREAK: u32 = 0x80u;
 // The arc of every boundary slot: for each block its first arc, then a byte a slot, which counts from there.
 @group(1) @binding(1) var<storage, read> arc_at: array<u32>;
 @group(1) @binding(2) var<storage, read> arcs: array<Arc>;
-// Winding code of each piece, plus one, in this view and layer; four digits of 8 bits.
+// Winding code of each piece, plus one, in this view and layer: four digits of 8 bits, or four weights of 16.
 @group(1) @binding(3) var<storage, read> codes: array<u32>;
+
+// Whether weights are summed.
+override WEIGHTS: bool = false;
 
 fn relative_m(vertex: vec4<i32>) -> vec3<f32> {
     // Exact: the eye is clamped so that the differences stay below 2^31.
@@ -86,6 +89,11 @@ fn clip(vertex: vec4<i32>, drawn: u32) -> vec4<f32> {
 }
 
 fn code_digits(piece_plus_one: u32) -> vec4<f32> {
+    if WEIGHTS {
+        let low = codes[2u * piece_plus_one];
+        let high = codes[2u * piece_plus_one + 1u];
+        return vec4<f32>(vec4<u32>(low & 0xffffu, low >> 16u, high & 0xffffu, high >> 16u));
+    }
     return digits_of(codes[piece_plus_one]);
 }
 

@@ -13,14 +13,9 @@ struct Screen {
     @location(0) @interpolate(flat) known: vec4<u32>,
 }
 
-// The corners of a window, as a strip. Its least corner is in the vertices' indices, its greatest in the
-// instance's, in 2^-15 of the picture: what changes with every frame needs no buffer so.
 @vertex
 fn vs_resolve(@builtin(vertex_index) vertex: u32, @builtin(instance_index) instance: u32) -> Screen {
-    let least = vec2<u32>((vertex >> 2u) & 0x7fffu, vertex >> 17u);
-    let greatest = vec2<u32>(instance & 0xffffu, instance >> 16u);
-    let at = select(least, greatest, vec2<bool>((vertex & 1u) == 1u, (vertex & 2u) == 2u));
-    return Screen(vec4<f32>(vec2<f32>(at) / 16384.0 - 1.0, 0.0, 1.0), known_of_layer());
+    return Screen(window_corner(vertex, instance), known_of_layer());
 }
 
 fn color_of(fill: u32) -> vec4<f32> {

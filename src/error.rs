@@ -172,6 +172,9 @@ pub enum StyleError {
     /// The identifier was not given out by this renderer, or its image was removed.
     #[error("no such image in this renderer")]
     NoSuchImage,
+    /// [`Blend::Unordered`](crate::Blend::Unordered) goes with no pattern, stroke or fade.
+    #[error("fills that blend in no order have no pattern, stroke or fade")]
+    UnorderedIsPlain,
 }
 
 /// Why an image cannot be.

@@ -7,6 +7,8 @@ pub(crate) mod edge_segments;
 pub(crate) mod edge_uniform;
 pub(crate) mod layers;
 pub(crate) mod lens;
+pub(crate) mod mixture;
+pub(crate) mod optical_depth;
 pub(crate) mod placed;
 pub(crate) mod reference;
 pub(crate) mod refine;

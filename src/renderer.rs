@@ -24,7 +24,7 @@ use crate::{
     gpu::image_arrays::ImageArrays,
     gpu::layer_tables::{LayerTables, require},
     gpu::pick_pipeline::PickPipeline,
-    gpu::pipelines::{Key, Pipelines},
+    gpu::pipelines::Pipelines,
     gpu::projection::FAR_PLANE_FEATURES,
     gpu::sensor_pipelines::SensorPipelines,
     gpu::style_pipelines::StylePipelines,
@@ -307,7 +307,7 @@ impl Renderer {
                 if !self.resolve_styled(view, pass, index)
                     && let Some(draw) = view.windows.get(index).copied().flatten()
                 {
-                    pass.set_pipeline(self.pipelines.get(Key::Resolve(layer.resolve_key)));
+                    pass.set_pipeline(self.pipelines.get(layer.resolved_by));
                     let (vertex, instance) = (draw.vertex, draw.instance);
                     pass.draw(vertex..vertex + 4, instance..instance + 1);
                 }

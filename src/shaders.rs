@@ -14,7 +14,9 @@ const PLANES_PACKED: &str = include_str!("../shaders/planes_packed.wgsl");
 const PLANES_SEPARATE: &str = include_str!("../shaders/planes_separate.wgsl");
 const LAYER: &str = include_str!("../shaders/layer.wgsl");
 const PICK: &str = include_str!("../shaders/pick.wgsl");
+const WINDOW: &str = include_str!("../shaders/window.wgsl");
 const RESOLVE: &str = include_str!("../shaders/resolve.wgsl");
+const RESOLVE_MIXTURE: &str = include_str!("../shaders/resolve_mixture.wgsl");
 const ARCTANGENT: &str = include_str!("../shaders/arctangent.wgsl");
 const STYLE: &str = include_str!("../shaders/style.wgsl");
 const STYLES_STORAGE: &str = include_str!("../shaders/styles_storage.wgsl");
@@ -70,7 +72,12 @@ pub fn copy_depth(sample_count: u32, logarithmic: bool) -> String {
 
 /// Decoding and colouring.
 pub fn resolve(sample_count: u32) -> String {
-    [planes(sample_count), LAYER, RESOLVE].concat()
+    [planes(sample_count), LAYER, WINDOW, RESOLVE].concat()
+}
+
+/// The colours of unordered fills.
+pub fn resolve_mixture(sample_count: u32) -> String {
+    [planes(sample_count), WINDOW, RESOLVE_MIXTURE].concat()
 }
 
 /// Decoding, surface positions, patterns; `few` where styles and places fit into uniforms.
@@ -194,6 +201,8 @@ pub fn all() -> Vec<(&'static str, String)> {
         ("copy_log_depth_multisampled", copy_depth(4, true)),
         ("resolve", resolve(1)),
         ("resolve_multisampled", resolve(4)),
+        ("resolve_mixture", resolve_mixture(1)),
+        ("resolve_mixture_multisampled", resolve_mixture(4)),
         ("resolve_styled", resolve_styled(1, true)),
         ("resolve_styled_many", resolve_styled(1, false)),
         ("resolve_styled_multisampled", resolve_styled(4, true)),

@@ -33,7 +33,8 @@ pub struct FillStyle {
     pub fade: Fade,
     /// How the fill meets what is below.
     pub blend: Blend,
-    /// Where fills overlap, the greater lies on top; equal ones in the order of insertion.
+    /// Where fills overlap, the greater lies on top; equal ones in the order of insertion. Without meaning
+    /// for [`Blend::Unordered`].
     pub z_index: i32,
     /// Whether the fill is drawn at all.
     pub visible: bool,
@@ -86,6 +87,14 @@ pub enum Blend {
     Alpha,
     /// Added to it, like light.
     Additive,
+    /// Mixed, in no order, with all others of this kind that cover the point, as filters that lie on each
+    /// other: together they are as opaque as one on the other, and their colours count by optical depth,
+    /// −ln(1 − α). For zones that overlap by the hundred: however many do, they are counted together.
+    ///
+    /// They lie above fills of the other kinds and below sensors, and cannot be picked in the picture; a
+    /// [`Locator`](crate::Locator) tells which are at a point. Colours are clamped to 0 … 1, alphas to 0.99.
+    /// They have no pattern, stroke or fade, and their boundaries are as hard as samples make them.
+    Unordered,
 }
 
 /// Where a fill fades, decided at each pixel; the ramps that are given multiply.
@@ -153,6 +162,10 @@ impl FillStyle {
     pub(crate) fn check(&self) -> Result<(), StyleError> {
         check_color("color", self.color)?;
         check_color("highlight", self.highlight)?;
+        let plain = self.pattern.is_none() && self.stroke.is_none() && self.fade == Fade::default();
+        if self.blend == Blend::Unordered && !plain {
+            return Err(StyleError::UnorderedIsPlain);
+        }
         check_share("opacity", self.opacity)?;
         let ramps = [
             ("fade.distance_m", self.fade.distance_m),

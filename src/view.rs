@@ -69,6 +69,22 @@ pub(crate) struct Upload<'a> {
     pub queue: &'a wgpu::Queue,
     pub pipelines: &'a Pipelines,
     pub mesh: &'a GpuMesh,
+    pub weights: Option<&'a Weights>,
+}
+
+/// What is summed in the layer of a mixture.
+pub(crate) struct Weights {
+    pub layer: usize,
+    /// By code, as the extruder reads them.
+    pub by_code: Vec<[u32; 2]>,
+}
+
+impl Weights {
+    /// The codes of a layer's pieces, replaced if it is that layer.
+    fn in_layer(&self, layer: usize, codes: &[u32]) -> Option<Vec<[u32; 2]>> {
+        let weight = |&code: &u32| self.by_code[code as usize];
+        (layer == self.layer).then(|| codes.iter().map(weight).collect())
+    }
 }
 
 /// Codes of one mesh in one layer.
@@ -137,7 +153,13 @@ impl MeshView {
             .0;
         self.layers.truncate(selection.layers.len());
         for (index, draws) in selection.layers.iter().enumerate() {
-            let codes: &[u8] = bytemuck::cast_slice(&draws.codes);
+            let weights = to
+                .weights
+                .and_then(|weights| weights.in_layer(index, &draws.codes));
+            let codes: &[u8] = match &weights {
+                Some(weights) => bytemuck::cast_slice(weights),
+                None => bytemuck::cast_slice(&draws.codes),
+            };
             let patch_vertices = &self.patch_vertices.buffer;
             if let Some(layer) = self.layers.get_mut(index) {
                 let (uploaded, moved) = layer.codes.write(device, queue, codes);

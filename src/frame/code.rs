@@ -29,7 +29,7 @@ impl Mantissa {
         sums.iter().all(|&sum| sum < self.limit())
     }
 
-    fn limit(self) -> u64 {
+    pub(crate) fn limit(self) -> u64 {
         match self {
             Self::Half => 1 << 11,
             Self::Single => 1 << 24,

@@ -2,18 +2,22 @@
 //!
 //! Codes of disjoint pieces can be summed in one target; overlapping ones need targets of their own.
 //! Layers are resolved bottom to top, so of two overlapping pieces the one with the greater z-order
-//! gets the higher layer: the host's blending then composes them in order.
+//! gets the higher layer: the host's blending then composes them in order. Unordered fills are mixed in one
+//! layer above all others, however many overlap.
 
 mod members;
 #[cfg(test)]
 mod tests;
 
+use rustc_hash::FxHashMap;
+
 use crate::{
     error::RendererError,
     fill_mesh::{Bounds, FillMesh},
     frame::code::{Code, Mantissa},
+    frame::mixture::Mixture,
     options::CountTechnique,
-    style::FillStyle,
+    style::{Blend, FillStyle},
 };
 use members::{Members, for_each_rank};
 
@@ -47,7 +51,7 @@ pub(crate) struct Styled<'a> {
 }
 
 /// Names a fill among several meshes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct FillOf {
     pub mesh: usize,
     pub fill: u32,
@@ -74,6 +78,8 @@ pub(crate) struct PieceCode {
 pub(crate) struct Layering {
     pub technique: CountTechnique,
     pub layers: Vec<Layer>,
+    /// The unordered fills, if there are any: the layer behind the last of `layers`.
+    pub mixture: Option<Mixture>,
     /// By mesh and piece; `None` where nothing of the fill is drawn.
     pub codes: Vec<Vec<Option<PieceCode>>>,
 }
@@ -85,7 +91,9 @@ impl Layering {
         wanted: Counting,
         mantissa: Mantissa,
     ) -> Result<Self, RendererError> {
-        let pieces = visible_pieces(meshes);
+        let unordered = |piece: &Visible<'_>| style_of(meshes, piece).blend == Blend::Unordered;
+        let (mixed, pieces): (Vec<_>, Vec<_>) =
+            visible_pieces(meshes).into_iter().partition(unordered);
         let layer_of = stack(meshes, &pieces);
         let layer_count = layer_of.iter().map(|layer| layer + 1).max().unwrap_or(0);
         if layer_count > MAX_LAYERS {
@@ -119,12 +127,19 @@ impl Layering {
             .zip(codes)
             .map(|(fills, code)| Layer { fills, code })
             .collect();
-        let codes = piece_codes(meshes, &pieces, &layer_of, &ids, &layers);
+        let mut codes = piece_codes(meshes, &pieces, &layer_of, &ids, &layers);
+        let mixture = mix(meshes, &mixed, technique, layers.len(), &mut codes);
         Ok(Self {
             technique,
             layers,
+            mixture,
             codes,
         })
+    }
+
+    /// How many layers are counted, that of the mixture included.
+    pub(crate) fn count(&self) -> usize {
+        self.layers.len() + usize::from(self.mixture.is_some())
     }
 }
 
@@ -133,6 +148,10 @@ struct Visible<'a> {
     of: FillOf,
     piece: usize,
     bounds: &'a Bounds,
+}
+
+fn style_of<'a>(meshes: &[Styled<'a>], piece: &Visible<'_>) -> &'a FillStyle {
+    &meshes[piece.of.mesh].styles[piece.of.fill as usize]
 }
 
 fn visible_pieces<'a>(meshes: &[Styled<'a>]) -> Vec<Visible<'a>> {
@@ -152,7 +171,7 @@ fn visible_pieces<'a>(meshes: &[Styled<'a>]) -> Vec<Visible<'a>> {
             }
         }
     }
-    visible.sort_by_key(|piece| meshes[piece.of.mesh].styles[piece.of.fill as usize].z_index);
+    visible.sort_by_key(|piece| style_of(meshes, piece).z_index);
     visible
 }
 
@@ -220,4 +239,27 @@ fn piece_codes(
         });
     });
     codes
+}
+
+/// Gives unordered pieces codes: one for all of a colour, or one a fill where the stencil counts.
+fn mix(
+    meshes: &[Styled<'_>],
+    pieces: &[Visible<'_>],
+    technique: CountTechnique,
+    layer: usize,
+    codes: &mut [Vec<Option<PieceCode>>],
+) -> Option<Mixture> {
+    let mut mixture = Mixture::default();
+    let mut code_of: FxHashMap<(Option<FillOf>, [u64; 4]), u32> = FxHashMap::default();
+    for piece in pieces {
+        let depths = Mixture::depths_of(style_of(meshes, piece));
+        let alone = (technique == CountTechnique::Stencil).then_some(piece.of);
+        let code = code_of.entry((alone, depths.map(f64::to_bits)));
+        let packed = *code.or_insert_with(|| {
+            mixture.depths.push(depths);
+            mixture.depths.len() as u32
+        });
+        codes[piece.of.mesh][piece.piece] = Some(PieceCode { layer, packed });
+    }
+    (!pieces.is_empty()).then_some(mixture)
 }

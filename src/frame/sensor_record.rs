@@ -4,14 +4,13 @@ use glam::DVec3;
 
 use crate::{
     field_of_view::Shape,
+    frame::optical_depth::optical_depth,
     frame::reference::Reference,
     frame::sight_uniform::padded,
     sensor::{Aim, Extrusion},
     sensor_set::{Entry, SensorStyle},
 };
 
-/// Greatest opacity that is drawn: more would need endless optical depth.
-const MOST_OPAQUE: f32 = 0.99;
 /// A slack that never decides, metres.
 const NEVER: f32 = 1e30;
 
@@ -27,11 +26,6 @@ pub(crate) struct SensorRecord {
     pub rise: [f32; 4],
     pub weight: [u32; 4],
     pub planes: [u32; 4],
-}
-
-/// Optical depth of a style.
-pub(crate) fn optical_depth(style: &SensorStyle) -> f64 {
-    -f64::from(1.0 - style.color[3].min(MOST_OPAQUE)).ln()
 }
 
 /// Units of weight per optical depth: a power of two such that sums up to `deepest`, the optical depth of
@@ -158,8 +152,8 @@ pub(crate) fn planes_of(entry: &Entry, reference: &Reference, planes: &mut Vec<[
 
 /// Integer weights of a style.
 fn weight(style: &SensorStyle, scale: f64) -> [u32; 4] {
-    let [red, green, blue, _] = style.color;
-    let depth = optical_depth(style) * scale;
+    let [red, green, blue, alpha] = style.color;
+    let depth = optical_depth(alpha) * scale;
     [red, green, blue, 1.0].map(|part| (f64::from(part) * depth).round() as u32)
 }
 
@@ -174,7 +168,7 @@ mod tests {
             visible: true,
         };
         for sensors in [1_u32, 2, 3, 1000, 1 << 20] {
-            let scale = weight_scale(f64::from(sensors) * optical_depth(&opaque));
+            let scale = weight_scale(f64::from(sensors) * optical_depth(opaque.color[3]));
             let weight = u64::from(weight(&opaque, scale)[3]);
             assert!(
                 weight * u64::from(sensors) <= u64::from(u32::MAX),
@@ -189,7 +183,7 @@ mod tests {
             color: [0.3, 0.5, 0.7, 0.001],
             visible: true,
         };
-        let scale = weight_scale(1e5 * optical_depth(&faint));
+        let scale = weight_scale(1e5 * optical_depth(faint.color[3]));
         let [red, _, _, depth] = weight(&faint, scale).map(f64::from);
         assert!((red / depth - 0.3).abs() < 1e-3, "{red} of {depth}");
     }

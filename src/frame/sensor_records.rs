@@ -3,8 +3,9 @@
 use rayon::prelude::*;
 
 use crate::{
+    frame::optical_depth::optical_depth,
     frame::reference::Reference,
-    frame::sensor_record::{SensorRecord, optical_depth, planes_of, weight_scale},
+    frame::sensor_record::{SensorRecord, planes_of, weight_scale},
     sensor_set::{SensorSet, Version},
 };
 
@@ -40,7 +41,7 @@ impl SensorRecords {
             self.first_planes
                 .push(if planes > 0 { plane_total } else { 0 });
             plane_total += planes;
-            deepest += optical_depth(&entry.style);
+            deepest += optical_depth(entry.style.color[3]);
         }
         let weight_scale = weight_scale(deepest);
         // What was encoded of this set, in this place, on this scale, is up to date.

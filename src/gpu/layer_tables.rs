@@ -8,9 +8,10 @@ use crate::{
     frame::edge_draws::LayerEdges,
     frame::layers::{Counting, Layer, Layering, Styled},
     frame::lens::LensKind,
+    frame::mixture::{Burden, Mixture},
     frame::placed::PatternPlace,
     gpu::filled_buffer::FilledBuffer as _,
-    gpu::pipelines::ResolveKey,
+    gpu::pipelines::{Key, ResolveKey},
     gpu::planes::Planes,
     gpu::style_pipelines::StyleKey,
     gpu::style_table::{
@@ -24,6 +25,7 @@ use crate::{
 pub(crate) struct LayerTables {
     /// Shared with those who asked which fills a pixel shows.
     pub layering: Arc<Layering>,
+    /// Of all layers but that of a mixture.
     pub tables: Vec<LayerTable>,
     /// Of the layers that plain colours do not do for.
     pub styles: Vec<Option<StyleTable>>,
@@ -34,6 +36,8 @@ pub(crate) struct LayerTables {
     /// Bytes uploaded for the tables.
     pub bytes: u64,
     mantissa: Mantissa,
+    /// Of what is added up even where the stencil counts.
+    mixed_mantissa: Mantissa,
 }
 
 impl LayerTables {
@@ -45,6 +49,7 @@ impl LayerTables {
         mantissa: Mantissa,
     ) -> Result<Self, RendererError> {
         let layering = Arc::new(Layering::assign(from.styled, counting, mantissa)?);
+        let mixed_mantissa = mantissa;
         // Where the stencil counts, nothing is summed and 32-bit targets need no blending.
         let mantissa = match layering.technique {
             CountTechnique::Winding => mantissa,
@@ -79,6 +84,7 @@ impl LayerTables {
             edges,
             tables,
             mantissa,
+            mixed_mantissa,
         })
     }
 
@@ -103,11 +109,30 @@ impl LayerTables {
 
     /// Planes of each layer.
     pub(crate) fn planes(&self) -> Vec<Planes> {
-        self.layering
-            .layers
-            .iter()
-            .map(|layer| Planes::new(layer.code.planes, self.mantissa))
+        let layers = self.layering.layers.iter();
+        let ordered = layers.map(|layer| Planes::new(layer.code.planes, self.mantissa));
+        let mixture = self.layering.mixture.iter();
+        ordered
+            .chain(mixture.map(|_| Planes::of_weights(self.mixed_mantissa)))
             .collect()
+    }
+
+    /// How each layer is resolved that plain colours do for.
+    pub(crate) fn resolved_by(&self) -> Vec<Key> {
+        let ordered = self.tables.iter().map(|table| Key::Resolve(table.key));
+        let mixture = self.layering.mixture.iter();
+        ordered
+            .chain(mixture.map(|_| Key::ResolveMixture))
+            .collect()
+    }
+
+    /// Units of weight per optical depth by which a mixture is summed, if no pixel is given more than `most`;
+    /// nothing if sums would not be exact.
+    pub(crate) fn mixture_scale(&self, mixture: &Mixture, most: &Burden) -> Option<f64> {
+        match self.layering.technique {
+            CountTechnique::Winding => mixture.scale(most, self.mixed_mantissa),
+            CountTechnique::Stencil => Some(mixture.stencil_scale(self.mixed_mantissa)),
+        }
     }
 
     /// Whether sums of at most `drawn[layer]` are exact.

@@ -59,6 +59,8 @@ pub(crate) enum Key {
     CopyDepth { logarithmic: bool, stencil: bool },
     /// Colours the host's target.
     Resolve(ResolveKey),
+    /// The same from the weights of a mixture.
+    ResolveMixture,
 }
 
 /// What a pipeline that resolves plain colours is made for.
@@ -69,16 +71,21 @@ pub(crate) struct ResolveKey {
     pub few: bool,
 }
 
+/// Where resolving binds the first plane of sums.
+pub(crate) const FIRST_PLANE: u32 = 3;
+
 /// Layouts, shader modules and the pipelines made so far.
 pub(crate) struct Pipelines {
     options: RendererOptions,
     pub frame_layout: wgpu::BindGroupLayout,
     pub mesh_layout: wgpu::BindGroupLayout,
     pub resolve_layout: wgpu::BindGroupLayout,
+    pub mixture_layout: wgpu::BindGroupLayout,
     depth_layout: wgpu::BindGroupLayout,
     /// The same with the host's logarithm.
     log_depth_layout: wgpu::BindGroupLayout,
     resolve_shader: wgpu::ShaderModule,
+    mixture_shader: wgpu::ShaderModule,
     count_shader: wgpu::ShaderModule,
     /// For depth with a far plane, where the device can draw that.
     unclipped_count_shader: Option<wgpu::ShaderModule>,
@@ -105,20 +112,22 @@ impl Pipelines {
             has_dynamic_offset: false,
             min_binding_size: None,
         };
-        let mut resolve_bindings = vec![uniform, uniform, storage];
-        resolve_bindings.extend(vec![float; plane_textures]);
+        let planes = (FIRST_PLANE..).zip(vec![float; plane_textures]);
+        let of_ids = (0..).zip([uniform, uniform, storage]).chain(planes.clone());
+        let of_mixture = std::iter::once((0, uniform)).chain(planes);
         let (vertex, fragment) = (wgpu::ShaderStages::VERTEX, wgpu::ShaderStages::FRAGMENT);
         Self {
             options,
             frame_layout: layout(device, "globefill frame", vertex | fragment, &[uniform]),
             mesh_layout: layout(device, "globefill mesh", vertex, &[storage; 4]),
             // Picking binds what resolving does.
-            resolve_layout: layout(
+            resolve_layout: layout_at(
                 device,
                 "globefill resolve",
                 vertex | fragment | wgpu::ShaderStages::COMPUTE,
-                &resolve_bindings,
+                of_ids,
             ),
+            mixture_layout: layout_at(device, "globefill mixture", vertex | fragment, of_mixture),
             depth_layout: layout(
                 device,
                 "globefill depth",
@@ -135,6 +144,11 @@ impl Pipelines {
                 device,
                 "globefill resolve",
                 shaders::resolve(options.sample_count),
+            ),
+            mixture_shader: shader(
+                device,
+                "globefill mixture",
+                shaders::resolve_mixture(options.sample_count),
             ),
             count_shader: shader(device, "globefill count", shaders::count(false)),
             unclipped_count_shader: device
@@ -166,6 +180,7 @@ impl Pipelines {
                 projection,
             } => {
                 let mut recipe = self.volume_recipe(input, vertex_entry(input), projection);
+                recipe.constants.push(planes.constant());
                 recipe.fragment = Some(self.planes_entry("fs_count"));
                 recipe.targets = self.targets(planes, Some(ADD), wgpu::ColorWrites::ALL);
                 let format = match projection {
@@ -212,6 +227,10 @@ impl Pipelines {
             } => {
                 let mut recipe = self.cover_recipe(input, planes, projection);
                 recipe.fragment = Some(self.planes_entry("fs_reject"));
+                if planes.weights {
+                    // Nothing is added to a mixture there; only the stencil is cleared.
+                    recipe.targets = self.targets(planes, None, wgpu::ColorWrites::empty());
+                }
                 recipe.depth_stencil = Some(painting(wgpu::CompareFunction::Less));
                 recipe.build(device, self.options.sample_count)
             }
@@ -233,22 +252,16 @@ impl Pipelines {
                 recipe.build(device, self.options.sample_count)
             }
             Key::Resolve(ResolveKey { code, few }) => {
-                let mut recipe = self.screen_recipe(&self.resolve_shader, &self.resolve_layout);
-                recipe.vertex = "vs_resolve";
-                recipe.primitive.topology = wgpu::PrimitiveTopology::TriangleStrip;
+                let layout = &self.resolve_layout;
+                let mut recipe = self.window_recipe(&self.resolve_shader, layout, "resolve");
                 recipe.constants = code.constants().to_vec();
                 recipe.constants.push(("FEW", u8::from(few).into()));
-                let entry = if self.options.sample_count > 1 {
-                    "fs_resolve_sample"
-                } else {
-                    "fs_resolve"
-                };
-                recipe.fragment = Some(entry.to_owned());
-                recipe.targets = vec![Some(wgpu::ColorTargetState {
-                    format: self.options.color_format,
-                    blend: Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
-                    write_mask: wgpu::ColorWrites::ALL,
-                })];
+                recipe.build(device, self.options.sample_count)
+            }
+            Key::ResolveMixture => {
+                let layout = &self.mixture_layout;
+                let mut recipe = self.window_recipe(&self.mixture_shader, layout, "mixture");
+                recipe.vertex = "vs_mixture";
                 recipe.build(device, self.options.sample_count)
             }
         }
@@ -330,7 +343,33 @@ impl Pipelines {
 
     fn cover_recipe(&self, input: Input, planes: Planes, projection: Projection) -> Recipe<'_> {
         let mut recipe = self.volume_recipe(input, cover_entry(input), projection);
-        recipe.targets = self.targets(planes, None, wgpu::ColorWrites::ALL);
+        recipe.constants.push(planes.constant());
+        let blend = planes.weights.then_some(ADD);
+        recipe.targets = self.targets(planes, blend, wgpu::ColorWrites::ALL);
+        recipe
+    }
+
+    /// Blends what `fs_NAME` makes of a window over the host's target.
+    fn window_recipe<'a>(
+        &self,
+        module: &'a wgpu::ShaderModule,
+        layout: &'a wgpu::BindGroupLayout,
+        name: &str,
+    ) -> Recipe<'a> {
+        let mut recipe = self.screen_recipe(module, layout);
+        recipe.vertex = "vs_resolve";
+        recipe.primitive.topology = wgpu::PrimitiveTopology::TriangleStrip;
+        let sampled = if self.options.sample_count > 1 {
+            "_sample"
+        } else {
+            ""
+        };
+        recipe.fragment = Some(format!("fs_{name}{sampled}"));
+        recipe.targets = vec![Some(wgpu::ColorTargetState {
+            format: self.options.color_format,
+            blend: Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
+            write_mask: wgpu::ColorWrites::ALL,
+        })];
         recipe
     }
 
@@ -375,15 +414,29 @@ fn shader(device: &wgpu::Device, label: &str, source: String) -> wgpu::ShaderMod
     })
 }
 
+/// A layout of bindings from 0 on.
 pub(crate) fn layout(
     device: &wgpu::Device,
     label: &str,
     visibility: wgpu::ShaderStages,
     bindings: &[wgpu::BindingType],
 ) -> wgpu::BindGroupLayout {
-    let entries: Vec<_> = (0..)
-        .zip(bindings)
-        .map(|(binding, &ty)| wgpu::BindGroupLayoutEntry {
+    layout_at(
+        device,
+        label,
+        visibility,
+        (0..).zip(bindings.iter().copied()),
+    )
+}
+
+fn layout_at(
+    device: &wgpu::Device,
+    label: &str,
+    visibility: wgpu::ShaderStages,
+    bindings: impl Iterator<Item = (u32, wgpu::BindingType)>,
+) -> wgpu::BindGroupLayout {
+    let entries: Vec<_> = bindings
+        .map(|(binding, ty)| wgpu::BindGroupLayoutEntry {
             binding,
             visibility,
             ty,

@@ -7,6 +7,8 @@ use crate::frame::code::Mantissa;
 pub(crate) struct Planes {
     pub count: u32,
     pub half: bool,
+    /// Whether weights of a mixture are summed, not codes.
+    pub weights: bool,
 }
 
 impl Planes {
@@ -14,7 +16,21 @@ impl Planes {
         Self {
             count,
             half: mantissa == Mantissa::Half,
+            weights: false,
         }
+    }
+
+    /// Those of a mixture: three colours and all light.
+    pub(crate) fn of_weights(mantissa: Mantissa) -> Self {
+        Self {
+            weights: true,
+            ..Self::new(4, mantissa)
+        }
+    }
+
+    /// The override of extrude.wgsl.
+    pub(crate) fn constant(self) -> (&'static str, f64) {
+        ("WEIGHTS", u8::from(self.weights).into())
     }
 
     /// Formats of the targets: one with all planes, or one each where samples are many (32-bit

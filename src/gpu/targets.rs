@@ -6,9 +6,10 @@ use crate::{
     frame::code::MAX_PLANES,
     frame::layers::Counting,
     gpu::fixed_function::copy_format,
-    gpu::layer_tables::LayerTable,
-    gpu::pipelines::{Pipelines, ResolveKey},
+    gpu::layer_tables::LayerTables,
+    gpu::pipelines::{FIRST_PLANE, Key, Pipelines},
     gpu::planes::Planes,
+    gpu::stream_buffer::StreamBuffer,
     pick::Pick,
 };
 
@@ -36,7 +37,10 @@ pub(crate) enum Copied {
 /// Textures of one view.
 pub(crate) struct Targets {
     pub key: TargetsKey,
+    /// Those of ids, the lowest first; behind them that of a mixture.
     pub layers: Vec<LayerTarget>,
+    /// Of a mixture: `Mixture` of resolve_mixture.wgsl.
+    pub mixture: Option<StreamBuffer>,
     /// What the ids in the layers mean.
     pub pick: Pick,
     /// The copy of the host's depth.
@@ -47,15 +51,21 @@ pub(crate) struct Targets {
 pub(crate) struct LayerTarget {
     pub planes: Vec<wgpu::TextureView>,
     pub resolve_group: wgpu::BindGroup,
-    pub resolve_key: ResolveKey,
+    /// The pipeline that resolves it where plain colours do.
+    pub resolved_by: Key,
 }
 
 impl Targets {
+    /// The layers that sum ids.
+    pub(crate) fn of_ids(&self) -> &[LayerTarget] {
+        &self.layers[..self.layers.len() - usize::from(self.mixture.is_some())]
+    }
+
     pub(crate) fn new(
         device: &wgpu::Device,
         pipelines: &Pipelines,
         sample_count: u32,
-        layer_tables: &[LayerTable],
+        tables: &LayerTables,
         pick: Pick,
         key: TargetsKey,
     ) -> Self {
@@ -78,24 +88,33 @@ impl Targets {
                 .create_view(&wgpu::TextureViewDescriptor::default())
         };
         let attachment = wgpu::TextureUsages::RENDER_ATTACHMENT;
-        let layers = key
-            .planes
-            .iter()
-            .zip(layer_tables)
-            .map(|(planes, table)| {
-                let planes: Vec<_> = planes
-                    .formats(sample_count)
-                    .into_iter()
-                    .map(|format| {
-                        let usage = attachment | wgpu::TextureUsages::TEXTURE_BINDING;
-                        texture("globefill winding", format, usage)
-                    })
+        let mixture = tables.layering.mixture.as_ref().map(|_| {
+            let usage = wgpu::BufferUsages::UNIFORM;
+            StreamBuffer::new(device, "globefill mixture", usage)
+        });
+        let layers = (0..)
+            .zip(&key.planes)
+            .zip(tables.resolved_by())
+            .map(|((index, planes), resolved_by)| {
+                let formats = planes.formats(sample_count).into_iter();
+                let usage = attachment | wgpu::TextureUsages::TEXTURE_BINDING;
+                let planes: Vec<_> = formats
+                    .map(|format| texture("globefill winding", format, usage))
                     .collect();
-                let resolve_group = resolve_group(device, pipelines, sample_count, table, &planes);
+                let (layout, buffers) = match tables.tables.get::<usize>(index) {
+                    Some(table) => (
+                        &pipelines.resolve_layout,
+                        vec![&table.head, &table.packed, &table.colors],
+                    ),
+                    None => (
+                        &pipelines.mixture_layout,
+                        mixture.iter().map(|stream| &stream.buffer).collect(),
+                    ),
+                };
                 LayerTarget {
+                    resolve_group: resolve_group(device, layout, sample_count, &buffers, &planes),
                     planes,
-                    resolve_group,
-                    resolve_key: table.key,
+                    resolved_by,
                 }
             })
             .collect();
@@ -106,6 +125,7 @@ impl Targets {
         Self {
             key,
             layers,
+            mixture,
             pick,
             copy,
         }
@@ -114,27 +134,29 @@ impl Targets {
 
 fn resolve_group(
     device: &wgpu::Device,
-    pipelines: &Pipelines,
+    layout: &wgpu::BindGroupLayout,
     sample_count: u32,
-    table: &LayerTable,
+    buffers: &[&wgpu::Buffer],
     planes: &[wgpu::TextureView],
 ) -> wgpu::BindGroup {
-    let tables = [&table.head, &table.packed, &table.colors].map(wgpu::Buffer::as_entire_binding);
     let mut entries: Vec<_> = (0..)
-        .zip(tables)
-        .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource })
+        .zip(buffers)
+        .map(|(binding, buffer)| wgpu::BindGroupEntry {
+            binding,
+            resource: buffer.as_entire_binding(),
+        })
         .collect();
     // The shader masks planes that the code does not have; any texture does for them.
     let bound = if sample_count > 1 { MAX_PLANES } else { 1 };
     entries.extend((0..bound).map(|plane| wgpu::BindGroupEntry {
-        binding: plane + 3,
+        binding: FIRST_PLANE + plane,
         resource: wgpu::BindingResource::TextureView(
             &planes[(plane as usize).min(planes.len() - 1)],
         ),
     }));
     device.create_bind_group(&wgpu::BindGroupDescriptor {
         label: Some("globefill resolve"),
-        layout: &pipelines.resolve_layout,
+        layout,
         entries: &entries,
     })
 }

@@ -17,7 +17,7 @@ impl Renderer {
     /// and `MAP_READ` to be read by the host.
     ///
     /// The answer is what the pixels of the view's last prepared frame show, with the styles and meshes
-    /// it was prepared with. Fills that were hidden or paint nothing are not found. As in the picture a
+    /// it was prepared with. Fills that were hidden or paint nothing, and unordered ones, are not found. As in the picture a
     /// boundary is where it was drawn, within the frame's
     /// [`pixel_error`](crate::Frame::pixel_error); a [`Locator`](crate::Locator) answers exactly.
     /// Sensors are not fills: [`read_coverage`](Self::read_coverage) counts those.
@@ -40,7 +40,7 @@ impl Renderer {
         let Some(targets) = view.targets.as_ref().filter(|_| pixel.cmplt(size_px).all()) else {
             return Err(RendererError::NoSuchPixel(pixel));
         };
-        if targets.layers.is_empty() {
+        if targets.of_ids().is_empty() {
             encoder.clear_buffer(into, offset, Some(Pick::BYTES));
             return Ok(targets.pick.clone());
         }
@@ -51,7 +51,7 @@ impl Renderer {
             let samples = self.options.sample_count;
             PickPipeline::new(&self.device, &self.pipelines.resolve_layout, samples)
         });
-        let answer = pipeline.ask(&self.device, encoder, &targets.layers, pixel);
+        let answer = pipeline.ask(&self.device, encoder, targets.of_ids(), pixel);
         encoder.copy_buffer_to_buffer(&answer, IDS_AT, into, offset, Some(Pick::BYTES));
         Ok(targets.pick.clone())
     }

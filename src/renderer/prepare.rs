@@ -9,6 +9,7 @@ use crate::{
     frame::edge_draws::EdgeWants,
     frame::layers::{Counting, Styled},
     frame::lens::log_range,
+    frame::mixture::Burden,
     frame::placed::PatternPlace,
     frame::select::{LayerDraws, Selection},
     frame::sight::Sight,
@@ -24,7 +25,7 @@ use crate::{
     gpu::targets::{Copied, Targets, TargetsKey},
     options::{CountTechnique, Frame},
     pick::Pick,
-    view::{MeshView, Prepared, Upload, View},
+    view::{MeshView, Prepared, Upload, View, Weights},
 };
 
 impl Renderer {
@@ -46,7 +47,8 @@ impl Renderer {
         if frame.size_px.max_element() > size_limit {
             return Err(RendererError::InvalidFrame("size_px"));
         }
-        let (counting, table_bytes, selections) = self.choose_layers(frame)?;
+        let (chosen, selections) = self.choose_layers(frame)?;
+        let counting = chosen.counting;
         let layers = self.layers(counting)?;
         let sight = selections.first().map(|selected| &selected.sight);
         let mut prepared = Prepared {
@@ -64,33 +66,37 @@ impl Renderer {
         self.ensure_pipelines(&prepared, &selections, counting)?;
         let place_bytes = self.prepare_styles(queue, view, &prepared, &selections, counting);
         view.windows = self.windows(counting, &selections, frame.size_px)?;
-        let mesh_bytes = self.upload(queue, view, selections);
-        prepared.stats.upload_bytes = table_bytes + place_bytes + mesh_bytes;
+        let mesh_bytes = self.upload(queue, view, selections, &chosen)?;
+        prepared.stats.upload_bytes = chosen.table_bytes + place_bytes + mesh_bytes;
         self.fill_stats(view, &mut prepared);
         view.prepared = Some(prepared);
         Ok(prepared.stats)
     }
 
-    /// The layers that this frame is counted in, the bytes uploaded for them, and what the frame shows:
-    /// with more planes, or those of the stencil, where what is drawn leaves no head-room for winding sums.
-    fn choose_layers(
-        &mut self,
-        frame: &Frame,
-    ) -> Result<(Counting, u64, Vec<Selected>), RendererError> {
+    /// How this frame is counted and what it shows: with more planes, or by stencil, where what is drawn
+    /// leaves no head-room for winding sums.
+    fn choose_layers(&mut self, frame: &Frame) -> Result<(Chosen, Vec<Selected>), RendererError> {
         let mut counting = match self.options.count {
             CountTechnique::Winding => Counting::Winding,
             CountTechnique::Stencil => Counting::Stencil,
         };
-        let mut bytes = 0;
+        let mut table_bytes = 0;
         loop {
             if self.layers[counting as usize].is_none() {
                 let tables = self.make_layers(counting);
-                bytes += tables.as_ref().map_or(0, |tables| tables.bytes);
+                table_bytes += tables.as_ref().map_or(0, |tables| tables.bytes);
                 self.layers[counting as usize] = Some(tables);
             }
             let selections = self.select(frame, counting)?;
-            if self.has_head_room(&selections, counting)? {
-                return Ok((counting, bytes, selections));
+            if self.has_head_room(&selections, counting)?
+                && let Some(mixture_scale) = self.mixture_scale(&selections, counting)?
+            {
+                let chosen = Chosen {
+                    counting,
+                    table_bytes,
+                    mixture_scale,
+                };
+                return Ok((chosen, selections));
             }
             counting = match counting {
                 Counting::Winding => Counting::SpareWinding,
@@ -98,6 +104,32 @@ impl Renderer {
                 Counting::SpareWinding | Counting::Stencil => Counting::Stencil,
             };
         }
+    }
+
+    /// Units of weight per optical depth in the frame's mixture, or any number where there is none; nothing if
+    /// sums would not be exact.
+    fn mixture_scale(
+        &self,
+        selections: &[Selected],
+        counting: Counting,
+    ) -> Result<Option<f64>, RendererError> {
+        let tables = self.layers(counting)?;
+        let Some(mixture) = &tables.layering.mixture else {
+            return Ok(Some(1.0));
+        };
+        let mut burden = Burden::default();
+        for Selected {
+            id,
+            level,
+            sight,
+            selection,
+        } in selections
+        {
+            let mesh = self.meshes[id].level(*level);
+            let draws = &selection.layers[tables.layering.layers.len()];
+            burden.add_draws(draws, mesh, sight, mixture);
+        }
+        Ok(tables.mixture_scale(mixture, &burden))
     }
 
     fn make_layers(&self, counting: Counting) -> Result<LayerTables, RendererError> {
@@ -154,7 +186,7 @@ impl Renderer {
     fn select(&self, frame: &Frame, counting: Counting) -> Result<Vec<Selected>, RendererError> {
         let tables = self.layers(counting)?;
         let layering = &tables.layering;
-        let layer_count = layering.layers.len();
+        let layer_count = layering.count();
         self.meshes
             .iter()
             .zip(&layering.codes)
@@ -226,8 +258,7 @@ impl Renderer {
         {
             let samples = self.options.sample_count;
             let pick = Pick::new(layers.layering.clone(), self.meshes.keys().copied());
-            let tables = &layers.tables;
-            let targets = Targets::new(&self.device, &self.pipelines, samples, tables, pick, key);
+            let targets = Targets::new(&self.device, &self.pipelines, samples, layers, pick, key);
             view.targets = Some(targets);
         }
         Ok(())
@@ -239,8 +270,9 @@ impl Renderer {
         selections: &[Selected],
         counting: Counting,
     ) -> Result<(), RendererError> {
-        let planes = self.layers(counting)?.planes();
-        for (index, planes) in planes.into_iter().enumerate() {
+        let layers = self.layers(counting)?;
+        let resolved_by = layers.resolved_by();
+        for (index, planes) in layers.planes().into_iter().enumerate() {
             let uses = |has: fn(&LayerDraws) -> bool| {
                 selections
                     .iter()
@@ -259,8 +291,7 @@ impl Renderer {
                 logarithmic: prepared.logarithm.is_some(),
                 stencil: copied == Copied::WithStencil,
             });
-            let resolve = Key::Resolve(self.layers(counting)?.tables[index].key);
-            for key in keys.into_iter().chain(copy).chain([resolve]) {
+            for key in keys.into_iter().chain(copy).chain([resolved_by[index]]) {
                 self.pipelines.ensure(&self.device, key);
             }
         }
@@ -274,9 +305,9 @@ impl Renderer {
         selections: &[Selected],
         size_px: UVec2,
     ) -> Result<Vec<Option<WindowDraw>>, RendererError> {
-        let layers = self.layers(counting)?.styles.iter().enumerate();
-        let windows = layers.map(|(layer, styles)| {
-            if styles.is_some() {
+        let tables = self.layers(counting)?;
+        let windows = (0..tables.layering.count()).map(|layer| {
+            if tables.styles.get(layer).is_some_and(Option::is_some) {
                 return None;
             }
             // Pixels at a fill's edge may take what their neighbours show.
@@ -286,7 +317,18 @@ impl Renderer {
     }
 
     /// Uploads what the view's selection changes; returns the bytes.
-    fn upload(&self, queue: &wgpu::Queue, view: &mut View, selections: Vec<Selected>) -> u64 {
+    fn upload(
+        &self,
+        queue: &wgpu::Queue,
+        view: &mut View,
+        selections: Vec<Selected>,
+        chosen: &Chosen,
+    ) -> Result<u64, RendererError> {
+        let layering = &self.layers(chosen.counting)?.layering;
+        let weights = layering.mixture.as_ref().map(|mixture| Weights {
+            layer: layering.layers.len(),
+            by_code: mixture.weights(chosen.mixture_scale),
+        });
         view.meshes.retain(|id, _| self.meshes.contains_key(id));
         let mut bytes = 0;
         for selected in selections {
@@ -301,13 +343,21 @@ impl Renderer {
                     queue,
                     pipelines: &self.pipelines,
                     mesh: resident.gpu(&self.device, selected.level),
+                    weights: weights.as_ref(),
                 },
                 selected.level,
                 &selected.sight,
                 selected.selection,
             );
         }
-        bytes
+        let mixture = view.targets.as_mut().and_then(|it| it.mixture.as_mut());
+        if let Some(stream) = mixture {
+            let unit = [1.0 / chosen.mixture_scale as f32, 0.0, 0.0, 0.0];
+            bytes += stream
+                .write(&self.device, queue, bytemuck::bytes_of(&unit))
+                .0;
+        }
+        Ok(bytes)
     }
 
     /// Volumes for the stencil, and the frame's statistics.
@@ -380,6 +430,15 @@ fn logarithm(sight: &Sight) -> Option<[f32; 4]> {
     let log = sight.log_depth?;
     let parts = [log_range(&log), 1.0 / log.per_m, log.from_m, sight.near_m];
     Some(parts.map(|part| part as f32))
+}
+
+/// How a frame is counted.
+struct Chosen {
+    counting: Counting,
+    /// Uploaded for the tables of its layers.
+    table_bytes: u64,
+    /// Units of weight per optical depth.
+    mixture_scale: f64,
 }
 
 /// What a frame shows of one mesh.

@@ -94,15 +94,7 @@ pub fn paint(
     pixel_error: f64,
 ) -> Painted {
     let (_, depth) = depth_texture(gpu, surface, options.depth_format);
-    let (min_m, max_m) = surface.terrain.range_m();
-    let frame = Frame {
-        camera: surface.lens.camera(),
-        size_px: surface.size_px(),
-        terrain: HeightRange { min_m, max_m },
-        pixel_error,
-        host_pixel_error: 0.0,
-        log_depth: surface.lens.log_depth,
-    };
+    let frame = frame_of(surface, pixel_error);
     let stats = renderer
         .prepare(&gpu.queue, view, &frame)
         .expect("the frame can be drawn");
@@ -132,6 +124,19 @@ pub fn paint(
     Painted {
         texels: read_texture(gpu, &target, wgpu::TextureAspect::All),
         stats,
+    }
+}
+
+/// What a host says of a frame that shows the surface.
+pub fn frame_of(surface: &Surface, pixel_error: f64) -> Frame {
+    let (min_m, max_m) = surface.terrain.range_m();
+    Frame {
+        camera: surface.lens.camera(),
+        size_px: surface.size_px(),
+        terrain: HeightRange { min_m, max_m },
+        pixel_error,
+        host_pixel_error: 0.0,
+        log_depth: surface.lens.log_depth,
     }
 }
 

@@ -31,6 +31,7 @@ fn over_below(style: &FillStyle, ink: [f64; 4], faded: f64, below: [f64; 4]) -> 
     let shown = painted.map(|part| part * f64::from(style.opacity) * faded);
     match style.blend {
         Blend::Alpha => lay(shown, below),
+        Blend::Unordered => unreachable!("mixed fills have tests of their own"),
         Blend::Additive => {
             let [red, green, blue, _] = std::array::from_fn(|k| shown[k] + below[k]);
             [red, green, blue, below[3]]
@@ -39,11 +40,16 @@ fn over_below(style: &FillStyle, ink: [f64; 4], faded: f64, below: [f64; 4]) -> 
 }
 
 fn assert_shows(found: [u8; 4], wanted: [f64; 4], what: &str) -> f64 {
+    // Half a level of rounding for each fill on top of each other, and one.
+    assert_near(found, wanted, 1.0, what)
+}
+
+/// Fails if a channel is off by more than so many levels of 255; by how many it is at most.
+pub fn assert_near(found: [u8; 4], wanted: [f64; 4], levels: f64, what: &str) -> f64 {
     let wanted = wanted.map(|part| 255.0 * part.clamp(0.0, 1.0));
     let off = |k: usize| (f64::from(found[k]) - wanted[k]).abs();
     let worst = (0..4).map(off).fold(0.0, f64::max);
-    // Half a level of rounding for each fill on top of each other, and one.
-    assert!(worst <= 1.0 + 1e-9, "{what}: {found:?}, not {wanted:?}");
+    assert!(worst <= levels + 1e-9, "{what}: {found:?}, not {wanted:?}");
     worst
 }
 

@@ -22,6 +22,7 @@ mod seams;
 mod spacing;
 mod stage;
 mod strokes;
+mod unordered;
 mod unused;
 
 use glam::UVec2;

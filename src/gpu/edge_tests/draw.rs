@@ -156,6 +156,7 @@ pub fn draw(
         queue,
         pipelines: &pipelines,
         mesh: &uploaded,
+        weights: None,
     };
     view.upload(&to, 0, &sight, selection);
     let mut encoder = device.create_command_encoder(&Default::default());
