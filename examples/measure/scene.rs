@@ -17,6 +17,8 @@ pub struct Scene {
     /// [`globefill::MeshOptions::tolerance_m`].
     pub tolerance_m: f64,
     pub sensors: Option<Sensors>,
+    /// Whether fills lie over each other in no order.
+    pub unordered: bool,
     /// How high above the ellipsoid the ground lies, everywhere, metres.
     pub ground_m: f64,
     /// What positions in single precision are relative to.
@@ -41,6 +43,7 @@ impl Scene {
             regions,
             tolerance_m: 5.0,
             sensors: None,
+            unordered: false,
             ground_m: 0.0,
             origin: viewpoint.foot,
         }

@@ -92,6 +92,7 @@ fn circles_and_sensors(name: &str, reach_deg: f64) -> Result<Scene, String> {
             feet: middles,
             step_deg: 0.0,
         }),
+        unordered: true,
         ..Scene::new(name, from_afar(), regions)
     })
 }

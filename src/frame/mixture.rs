@@ -90,7 +90,7 @@ fn power_below(bound: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::style::Blend;
+    use crate::{frame::window::Window, style::Blend};
 
     fn style(color: [f32; 4]) -> FillStyle {
         FillStyle {
@@ -128,11 +128,7 @@ mod tests {
                 depths: vec![Mixture::depths_of(&style([1.0, 1.0, 0.2, alpha]))],
             };
             let mut light = Burden::default();
-            light.add(
-                crate::frame::window::Window::FULL,
-                100.0,
-                100.0 * mixture.deepest(),
-            );
+            light.add(Window::FULL, 100, mixture.deepest());
             let scale = mixture
                 .scale(&light, Mantissa::Single)
                 .expect("it has room");
@@ -156,11 +152,11 @@ mod tests {
         };
         let burden = |faces| {
             let mut burden = Burden::default();
-            burden.add(crate::frame::window::Window::FULL, faces, faces);
+            burden.add(Window::FULL, faces, 1.0);
             burden
         };
-        assert!(mixture.scale(&burden(60_000.0), Mantissa::Single).is_some());
-        assert!(mixture.scale(&burden(70_000.0), Mantissa::Single).is_none());
-        assert!(mixture.scale(&burden(10.0), Mantissa::Half).is_none());
+        assert!(mixture.scale(&burden(60_000), Mantissa::Single).is_some());
+        assert!(mixture.scale(&burden(70_000), Mantissa::Single).is_none());
+        assert!(mixture.scale(&burden(10), Mantissa::Half).is_none());
     }
 }

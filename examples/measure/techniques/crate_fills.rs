@@ -1,6 +1,6 @@
 //! The crate's fills, as any host draws them.
 
-use globefill::{CountTechnique, FillStyle, wgpu};
+use globefill::{Blend, CountTechnique, FillStyle, wgpu};
 
 use crate::{
     canvas::Paint,
@@ -35,6 +35,11 @@ impl CrateFills {
             count,
             smooth_edges: false,
         };
+        // Numbers cannot be mixed: of fills that lie over each other the topmost is judged, if it can be.
+        let blend = match paint {
+            Paint::Colors if stage.scene.unordered => Blend::Unordered,
+            _ => Blend::Alpha,
+        };
         let mut drawing = Drawing::new(
             gpu,
             &stage.ground,
@@ -46,6 +51,7 @@ impl CrateFills {
         for (fill, color) in (0..).zip(paint.colors(stage)) {
             let style = FillStyle {
                 color,
+                blend,
                 ..Default::default()
             };
             drawing.set_style(fill, style)?;
