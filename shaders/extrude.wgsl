@@ -45,7 +45,8 @@ const BREAK: u32 = 0x80u;
 @group(0) @binding(0) var<uniform> frame: Frame;
 // Fixed point: xyz in 1/128 m, w three 10-bit fractions of 2^-17 m (x lowest).
 @group(1) @binding(0) var<storage, read> vertices: array<vec4<i32>>;
-// The arc of every boundary slot: for each block its first arc, then a byte a slot, which counts from there.
+// The arc of every slot: for each block its first arc, then a byte a slot, which counts from there. Behind the
+// boundary lie the caps' interior vertices; those of a piece count as an arc with that piece on its left.
 @group(1) @binding(1) var<storage, read> arc_at: array<u32>;
 @group(1) @binding(2) var<storage, read> arcs: array<Arc>;
 // Winding code of each piece, plus one, in this view and layer: four digits of 8 bits, or four weights of 16.
@@ -105,13 +106,36 @@ fn arc_weight(arc: u32) -> vec4<f32> {
     return code_digits(arcs[arc].left) - code_digits(arcs[arc].right);
 }
 
-// Cap-only inputs. instance = 2 * piece + (1 for the bottom cap).
-@vertex
-fn vs_cap(@builtin(vertex_index) vertex: u32, @builtin(instance_index) instance: u32) -> Face {
-    let bottom = (instance & 1u) == 1u;
-    // The bottom cap is the same triangle seen from below.
-    let weight = code_digits((instance >> 1u) + 1u) * select(1.0, -1.0, bottom);
+struct SlotArc {
+    arc: u32,
+    is_break: bool,
+}
+
+fn arc_of(slot: u32) -> SlotArc {
+    let block = (slot / BLOCK) * (BLOCK / 4u + 1u);
+    let own = arc_at[block + 1u + (slot % BLOCK) / 4u] >> (8u * (slot % 4u));
+    return SlotArc(arc_at[block] + (own & (BREAK - 1u)), (own & BREAK) != 0u);
+}
+
+// A corner of a cap, whose piece has so many digits. The bottom cap is the top's triangle seen from below.
+fn cap_corner(vertex: u32, digits: vec4<f32>, bottom: bool) -> Face {
+    let weight = digits * select(1.0, -1.0, bottom);
     return face(vertices[vertex], select(TOP, BOTTOM, bottom), weight);
+}
+
+// Cap-only inputs of one piece. index = 2 * vertex + side; instance = 2 * piece + (1 for the bottom cap).
+@vertex
+fn vs_cap(@builtin(vertex_index) index: u32, @builtin(instance_index) instance: u32) -> Face {
+    return cap_corner(index >> 1u, code_digits((instance >> 1u) + 1u), (instance & 1u) == 1u);
+}
+
+// Cap-only inputs of many pieces: each lies on that side, 1 for the right, of the arcs of its vertices.
+@vertex
+fn vs_caps(@builtin(vertex_index) index: u32, @builtin(instance_index) bottom: u32) -> Face {
+    let vertex = index >> 1u;
+    let arc = arcs[arc_of(vertex).arc];
+    let piece = select(arc.left, arc.right, (index & 1u) == 1u);
+    return cap_corner(vertex, code_digits(piece), bottom == 1u);
 }
 
 struct WallCorner {
@@ -125,16 +149,14 @@ struct WallCorner {
 fn wall_corner(k: u32) -> WallCorner {
     let slot = k >> 1u;
     let top = (k & 1u) == 0u;
-    let block = (slot / BLOCK) * (BLOCK / 4u + 1u);
-    let own = arc_at[block + 1u + (slot % BLOCK) / 4u] >> (8u * (slot % 4u));
-    let arc = arc_at[block] + (own & (BREAK - 1u));
-    if (own & BREAK) == 0u {
-        return WallCorner(arc, slot, select(BOTTOM, TOP, top));
+    let own = arc_of(slot);
+    if !own.is_break {
+        return WallCorner(own.arc, slot, select(BOTTOM, TOP, top));
     }
     if top {
-        return WallCorner(arc, slot - 1u, BOTTOM);
+        return WallCorner(own.arc, slot - 1u, BOTTOM);
     }
-    return WallCorner(arc, slot + 1u, TOP);
+    return WallCorner(own.arc, slot + 1u, TOP);
 }
 
 // Degenerate wall inputs, as a triangle strip over boundary slots.

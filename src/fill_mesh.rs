@@ -36,7 +36,7 @@ impl Default for MeshOptions {
 /// Regions ready for upload: everything the GPU draws from, and nothing that knows the GPU.
 ///
 /// Boundary arcs are stored once, whichever pieces they bound. Vertices lie on the ellipsoid: first
-/// the boundary vertices, arc after arc, then the interior vertices of the caps.
+/// the boundary vertices, arc after arc, then the interior vertices of the caps, piece after piece.
 #[derive(Clone, Debug, Default)]
 pub struct FillMesh {
     /// The ellipsoid that the vertices lie on.
@@ -50,8 +50,8 @@ pub struct FillMesh {
     pub curves: Vec<Curve>,
     /// Boundary arcs, in the order of their vertices.
     pub arcs: Vec<Arc>,
-    /// Cap triangles, counter-clockwise seen from outside, as indices into `vertices`; the
-    /// triangles of a piece are contiguous, and so are the pieces of a fill.
+    /// Cap triangles, counter-clockwise seen from outside, as indices into `vertices`: piece after piece, fill
+    /// after fill. Their boundary vertices are of arcs that have the piece on a side.
     pub cap_triangles: Vec<[u32; 3]>,
     /// The same triangles in rows of neighbours, in the same order. None at all stand for a row a piece.
     pub cap_chunks: Vec<CapChunk>,
@@ -154,6 +154,12 @@ impl Bounds {
 }
 
 impl FillMesh {
+    /// The triangles of a piece.
+    pub(crate) fn triangles_of(&self, piece: &Piece) -> &[[u32; 3]] {
+        let first = piece.first_triangle as usize;
+        &self.cap_triangles[first..first + piece.triangle_count as usize]
+    }
+
     /// Makes each piece a row of triangles if there are no rows.
     pub(crate) fn chunk_by_piece(&mut self) {
         if self.cap_chunks.is_empty() {

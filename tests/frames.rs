@@ -2,6 +2,8 @@
 
 mod common;
 
+use std::collections::BTreeSet;
+
 use common::{
     camera::Pose,
     draw::IdPainter,
@@ -11,7 +13,10 @@ use common::{
     surface::{Cast, DepthKind, Surface, Terrain},
 };
 use glam::UVec2;
-use globefill::{CountTechnique, EdgeKind, Ellipsoid, FillStyle, View};
+use globefill::{
+    CountTechnique, EdgeKind, Ellipsoid, FillMesh, FillStyle, LonLat, MeshOptions, Region, View,
+    Zone,
+};
 
 const TECHNIQUES: [CountTechnique; 2] = [CountTechnique::Winding, CountTechnique::Stencil];
 
@@ -155,4 +160,28 @@ fn removed_meshes_are_gone() {
                 .is_err()
         );
     }
+}
+
+/// Each corner of a cap finds its own piece, so one draw serves many: the same picture as fill by fill.
+#[test]
+fn a_thousand_fills_take_few_draws() {
+    let Some(gpu) = gpu() else { return };
+    let surface = surface(4e5, UVec2::new(160, 90));
+    let circles: Vec<Region> = (0..1000)
+        .map(|k| {
+            let (row, column) = (f64::from(k / 40), f64::from(k % 40));
+            let middle = LonLat::new(5.0 + 0.3 * column, 45.0 + 0.2 * row);
+            Zone::circle(middle, 1e4).into()
+        })
+        .collect();
+    let mesh = FillMesh::build(&circles, &MeshOptions::default()).expect("they are sound");
+    let [winding, stencil] = TECHNIQUES.map(|count| {
+        let mut painter = IdPainter::new(gpu, mesh.clone(), &surface, count);
+        painter.draw(gpu, &mut View::default(), &surface, 0.25)
+    });
+    assert!(winding.ids == stencil.ids);
+    let shown: BTreeSet<u32> = winding.ids.iter().copied().collect();
+    assert!(shown.len() > 150, "{}", shown.len());
+    assert_eq!(winding.stats.drawn, stencil.stats.drawn);
+    assert!(10 * winding.stats.draws < winding.stats.drawn);
 }

@@ -363,7 +363,7 @@ mod tests {
         ] {
             let sight = looking_down(&mesh, at, height_m);
             let codes = &layering.codes[0];
-            let selection = Selection::of(&mesh, codes, layers.len(), &sight, &wants);
+            let selection = Selection::of(&mesh, layering.coded(0), &sight, &wants);
             let shown: Vec<_> = codes
                 .iter()
                 .zip(&mesh.pieces)

@@ -73,6 +73,16 @@ pub(crate) struct PieceCode {
     pub packed: u32,
 }
 
+/// The pieces of a mesh as they are counted.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Coded<'a> {
+    /// By piece; none where nothing is drawn of it.
+    pub codes: &'a [Option<PieceCode>],
+    /// How many layers there are.
+    pub layers: usize,
+    pub technique: CountTechnique,
+}
+
 /// The layers of everything visible.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Layering {
@@ -135,6 +145,15 @@ impl Layering {
             mixture,
             codes,
         })
+    }
+
+    /// The pieces of a mesh.
+    pub(crate) fn coded(&self, mesh: usize) -> Coded<'_> {
+        Coded {
+            codes: &self.codes[mesh],
+            layers: self.count(),
+            technique: self.technique,
+        }
     }
 
     /// How many layers are counted, that of the mixture included.

@@ -3,13 +3,14 @@
 use std::ops::Range;
 
 use crate::{
-    fill_mesh::{Arc, FillMesh, Piece},
+    fill_mesh::{Arc, CapChunk, FillMesh, Piece},
     frame::code::PlaneSums,
     frame::edge_draws::{ArcEdges, EdgeDraws, EdgeWants},
     frame::edge_segments::EdgeSegments,
-    frame::layers::PieceCode,
+    frame::layers::{Coded, PieceCode},
     frame::refine::Patch,
     frame::sight::Sight,
+    options::CountTechnique,
 };
 
 /// What is drawn of one mesh.
@@ -36,11 +37,11 @@ pub(crate) struct LayerDraws {
     pub edges: EdgeDraws,
 }
 
-/// Contiguous triangles of pieces with one code.
+/// Contiguous triangles.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct CapRun {
-    /// The first piece.
-    pub piece: u32,
+    /// The first piece, if all have one code.
+    pub piece: Option<u32>,
     pub triangles: Range<u32>,
     /// Whether the top caps are drawn, too: not where all surface lies behind them, since only faces
     /// behind the surface count.
@@ -48,9 +49,19 @@ pub(crate) struct CapRun {
 }
 
 impl CapRun {
-    /// Top and bottom caps drawn of the piece, as instances of extrude.wgsl.
+    /// Top and bottom caps drawn, as instances of extrude.wgsl.
     pub(crate) fn instances(&self) -> Range<u32> {
-        2 * self.piece + u32::from(!self.tops)..2 * self.piece + 2
+        let first = 2 * self.piece.unwrap_or(0);
+        first + u32::from(!self.tops)..first + 2
+    }
+
+    /// What it is made of.
+    fn chunks<'a>(&self, mesh: &'a FillMesh) -> &'a [CapChunk] {
+        let before = |triangle| {
+            let chunks = &mesh.cap_chunks;
+            chunks.partition_point(|chunk| chunk.first_triangle < triangle)
+        };
+        &mesh.cap_chunks[before(self.triangles.start)..before(self.triangles.end)]
     }
 }
 
@@ -70,11 +81,11 @@ impl Selection {
     /// Culls, refines and lists what to draw.
     pub(crate) fn of(
         mesh: &FillMesh,
-        codes: &[Option<PieceCode>],
-        layer_count: usize,
+        coded: Coded<'_>,
         sight: &Sight,
         wants: &EdgeWants<'_>,
     ) -> Self {
+        let codes = coded.codes;
         let least_cos_squared = sight.least_cos_squared();
         // Strokes show pieces that are too small to be seen themselves.
         let is_missed = |piece: &Piece| {
@@ -109,7 +120,9 @@ impl Selection {
             }
         }
         selection.segments = EdgeSegments::new(&selection.patch, &edges, wants);
-        selection.layers = (0..layer_count)
+        // The stencil counts fill by fill.
+        let mixing = coded.technique == CountTechnique::Winding;
+        selection.layers = (0..coded.layers)
             .map(|layer| {
                 let in_layer: Vec<u32> = std::iter::once(0)
                     .chain(shown.iter().map(|code| match code {
@@ -118,7 +131,7 @@ impl Selection {
                     }))
                     .collect();
                 LayerDraws {
-                    caps: cap_runs(mesh, &in_layer, sight),
+                    caps: cap_runs(mesh, &in_layer, sight, mixing),
                     walls: wall_runs(mesh, &in_layer, &arc_seen, &selection.patch),
                     patches: patch_runs(mesh, &in_layer, &arc_seen, &selection.patch),
                     edges: EdgeDraws {
@@ -167,9 +180,11 @@ impl LayerDraws {
             }
         };
         for run in &self.caps {
-            let code = self.codes[run.piece as usize + 1].to_le_bytes();
-            let triangles = run.triangles.len() * run.instances().len();
-            add(triangles, code.map(u32::from));
+            for chunk in run.chunks(mesh) {
+                let code = self.codes[chunk.piece as usize + 1].to_le_bytes();
+                let triangles = chunk.triangle_count as usize * run.instances().len();
+                add(triangles, code.map(u32::from));
+            }
         }
         let weight = |arc: &Arc| {
             let [left, right] =
@@ -191,7 +206,7 @@ fn code_of(codes: &[u32], side: Option<u32>) -> u32 {
     side.map_or(0, |piece| codes[piece as usize + 1])
 }
 
-fn cap_runs(mesh: &FillMesh, codes: &[u32], sight: &Sight) -> Vec<CapRun> {
+fn cap_runs(mesh: &FillMesh, codes: &[u32], sight: &Sight, mixing: bool) -> Vec<CapRun> {
     let mut runs: Vec<CapRun> = Vec::new();
     let code_of = |piece: u32| codes[piece as usize + 1];
     for chunk in &mesh.cap_chunks {
@@ -200,20 +215,21 @@ fn cap_runs(mesh: &FillMesh, codes: &[u32], sight: &Sight) -> Vec<CapRun> {
         }
         let triangles = chunk.first_triangle..chunk.first_triangle + chunk.triangle_count;
         let tops = !sight.tops_hide_surface(&chunk.bounds);
-        match runs.last_mut() {
-            Some(run)
-                if run.triangles.end == triangles.start
-                    && run.tops == tops
-                    && code_of(run.piece) == code_of(chunk.piece) =>
-            {
+        if let Some(run) = runs.last_mut()
+            && (run.triangles.end, run.tops) == (triangles.start, tops)
+        {
+            let alike = run.piece.map(code_of) == Some(code_of(chunk.piece));
+            if alike || mixing {
+                run.piece = run.piece.filter(|_| alike);
                 run.triangles.end = triangles.end;
+                continue;
             }
-            _ => runs.push(CapRun {
-                piece: chunk.piece,
-                triangles,
-                tops,
-            }),
         }
+        runs.push(CapRun {
+            piece: Some(chunk.piece),
+            triangles,
+            tops,
+        });
     }
     runs
 }

@@ -34,7 +34,9 @@ pub(crate) fn volumes(mesh: &FillMesh, draws: &LayerDraws) -> Vec<Volume> {
         volumes: Vec::new(),
     };
     for run in &draws.caps {
-        builder.volume(run.piece).caps.push(run.triangles.clone());
+        if let Some(piece) = run.piece {
+            builder.volume(piece).caps.push(run.triangles.clone());
+        }
     }
     for slots in &draws.walls {
         builder.add_walls(slots);

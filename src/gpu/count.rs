@@ -3,7 +3,7 @@
 use wgpu::util::BufferInitDescriptor;
 
 use crate::{
-    frame::select::LayerDraws,
+    frame::select::{CapRun, LayerDraws},
     frame::volumes::{Volume, Walls},
     gpu::filled_buffer::FilledBuffer as _,
     gpu::fixed_function::ONE_COUNTED,
@@ -122,7 +122,7 @@ impl Recorder<'_> {
             );
             pass.set_bind_group(0, &drawn.view.frame_group, &[]);
             pass.set_bind_group(1, &layer.mesh_group, &[]);
-            self.draw_caps(&mut pass, count(Input::Caps), drawn, draws);
+            self.draw_caps(&mut pass, count, drawn, draws);
             if !draws.walls.is_empty() {
                 pass.set_pipeline(self.pipelines.get(count(Input::Walls)));
                 for slots in &draws.walls {
@@ -156,18 +156,24 @@ impl Recorder<'_> {
     fn draw_caps(
         &self,
         pass: &mut wgpu::RenderPass<'_>,
-        key: Key,
+        key: impl Fn(Input) -> Key,
         drawn: &Drawn<'_>,
         draws: &LayerDraws,
     ) {
-        if draws.caps.is_empty() {
-            return;
-        }
-        pass.set_pipeline(self.pipelines.get(key));
         pass.set_index_buffer(drawn.gpu.cap_indices.slice(..), wgpu::IndexFormat::Uint32);
-        for run in &draws.caps {
-            let indices = 3 * run.triangles.start..3 * run.triangles.end;
-            pass.draw_indexed(indices, 0, run.instances());
+        for input in [Input::Caps, Input::MixedCaps] {
+            let mut runs = draws
+                .caps
+                .iter()
+                .filter(|run| run.input() == input)
+                .peekable();
+            if runs.peek().is_some() {
+                pass.set_pipeline(self.pipelines.get(key(input)));
+            }
+            for run in runs {
+                let indices = 3 * run.triangles.start..3 * run.triangles.end;
+                pass.draw_indexed(indices, 0, run.instances());
+            }
         }
     }
 
@@ -315,6 +321,16 @@ impl Recorder<'_> {
                     pass.draw_indexed(indices.clone(), 0, piece.clone());
                 }
             }
+        }
+    }
+}
+
+impl CapRun {
+    /// How it is drawn.
+    pub(crate) fn input(&self) -> Input {
+        match self.piece {
+            Some(_) => Input::Caps,
+            None => Input::MixedCaps,
         }
     }
 }

@@ -10,8 +10,8 @@ use crate::{
     gpu::fixed_point::encode,
 };
 
-/// Boundary slots that share a first arc in `arc_at`; the same in extrude.wgsl. No more arcs begin in a
-/// block than a byte counts, since each takes three slots.
+/// Slots that share a first arc in `arc_at`; the same in extrude.wgsl. No more arcs begin in a block than a
+/// byte counts.
 const BLOCK: usize = 64;
 /// Set in a slot's byte where it is the break behind its arc; the same in extrude.wgsl.
 const BREAK: u8 = 1 << 7;
@@ -20,11 +20,11 @@ const BREAK: u8 = 1 << 7;
 pub(crate) struct GpuMesh {
     /// Boundary slots, arc after arc with a break behind each, then the caps' interior vertices.
     pub vertices: wgpu::Buffer,
-    /// The arc of every boundary slot, in blocks.
+    /// The arc of every slot, in blocks.
     pub arc_at: wgpu::Buffer,
-    /// Sides of each arc.
+    /// Sides of each arc, then of the interior of each piece that has vertices there.
     pub arcs: wgpu::Buffer,
-    /// Vertex indices of the cap triangles.
+    /// Corners of the cap triangles: twice the vertex, and one more where the piece lies right of its arc.
     pub cap_indices: wgpu::Buffer,
     /// Made when edges are first wanted.
     edge_slots: OnceLock<EdgeSlots>,
@@ -52,9 +52,10 @@ impl GpuMesh {
                 usage,
             })
         };
+        let interiors = mesh.interiors();
         let vertices = vertices_in_slots(mesh);
-        let arcs = arc_records(mesh);
-        let arc_at = arc_at_slots(mesh);
+        let arcs = arc_records(mesh, &interiors);
+        let arc_at = arc_at_slots(mesh, &interiors);
         let caps = cap_indices(mesh);
         Self {
             vertices: buffer(
@@ -102,15 +103,30 @@ impl GpuMesh {
 }
 
 impl FillMesh {
-    /// Bytes that the mesh takes on the GPU, this level of detail alone: 16 a vertex, 1 more a boundary
-    /// vertex, 12 a cap triangle, 25 an arc for its sides and the break behind it, and 4 for every 64 boundary
+    /// Bytes that the mesh takes on the GPU, this level of detail alone: 17 a vertex, 12 a cap triangle, 25 an
+    /// arc for its sides and the break behind it, 8 a piece with vertices in its interior, and 4 for every 64
     /// vertices. Walls take none.
     pub fn gpu_bytes(&self) -> u64 {
-        let slots = self.boundary.len() + self.arcs.len();
-        let vertices = self.vertices.len() + self.arcs.len();
-        let arcs = size_of::<ArcRecord>() * self.arcs.len();
+        let slots = self.vertices.len() + self.arcs.len();
+        let arcs = size_of::<ArcRecord>() * (self.arcs.len() + self.interiors().len());
         let arc_at = (BLOCK + 4) * slots.div_ceil(BLOCK);
-        (16 * vertices + arcs + arc_at + 12 * self.cap_triangles.len()) as u64
+        (16 * slots + arcs + arc_at + 12 * self.cap_triangles.len()) as u64
+    }
+
+    /// The pieces that have vertices in their interior, in the order of these, and how many each.
+    fn interiors(&self) -> Vec<(u32, u32)> {
+        let boundary = self.boundary.len() as u32;
+        let mut interiors = Vec::new();
+        let mut found = boundary;
+        for (index, piece) in (0..).zip(&self.pieces) {
+            let triangles = self.triangles_of(piece).iter();
+            let behind = triangles.flatten().max().map_or(0, |last| last + 1);
+            if behind > found {
+                interiors.push((index, behind - found));
+                found = behind;
+            }
+        }
+        interiors
     }
 }
 
@@ -136,21 +152,29 @@ fn vertices_in_slots(mesh: &FillMesh) -> Vec<[i32; 4]> {
     vertices
 }
 
-fn arc_records(mesh: &FillMesh) -> Vec<ArcRecord> {
+fn arc_records(mesh: &FillMesh, interiors: &[(u32, u32)]) -> Vec<ArcRecord> {
     let plus_one = |piece: Option<u32>| piece.map_or(0, |piece| piece + 1);
     let record = |arc: &Arc| ArcRecord {
         left: plus_one(arc.left),
         right: plus_one(arc.right),
     };
-    mesh.arcs.iter().map(record).collect()
+    let interior = |&(piece, _): &(u32, u32)| ArcRecord {
+        left: piece + 1,
+        right: 0,
+    };
+    let arcs = mesh.arcs.iter().map(record);
+    arcs.chain(interiors.iter().map(interior)).collect()
 }
 
 /// For each block of slots its first arc and a byte a slot, as words.
-fn arc_at_slots(mesh: &FillMesh) -> Vec<u32> {
-    let mut slots: Vec<(u32, u8)> = Vec::with_capacity(mesh.boundary.len() + mesh.arcs.len());
+fn arc_at_slots(mesh: &FillMesh, interiors: &[(u32, u32)]) -> Vec<u32> {
+    let mut slots: Vec<(u32, u8)> = Vec::with_capacity(mesh.vertices.len() + mesh.arcs.len());
     for (index, arc) in (0..).zip(&mesh.arcs) {
         slots.extend((0..arc.vertex_count).map(|_| (index, 0)));
         slots.push((index, BREAK));
+    }
+    for (index, &(_, vertices)) in (mesh.arcs.len() as u32..).zip(interiors) {
+        slots.extend((0..vertices).map(|_| (index, 0)));
     }
     let mut arc_at = Vec::with_capacity(slots.len() / 4 + slots.len() / BLOCK + 1);
     for block in slots.chunks(BLOCK) {
@@ -165,19 +189,29 @@ fn arc_at_slots(mesh: &FillMesh) -> Vec<u32> {
     arc_at
 }
 
-/// Cap triangles with every boundary vertex moved behind the breaks before it.
+/// Corners of the cap triangles, with every boundary vertex moved behind the breaks before it.
 fn cap_indices(mesh: &FillMesh) -> Vec<[u32; 3]> {
+    let arcs = (0..).zip(&mesh.arcs);
+    let slots: Vec<(u32, Option<u32>)> = arcs
+        .flat_map(|(index, arc)| {
+            let slots =
+                slot(index, arc.first_vertex)..slot(index, arc.first_vertex + arc.vertex_count);
+            slots.map(|slot| (slot, arc.right))
+        })
+        .collect();
     let arc_count = mesh.arcs.len() as u32;
-    let slots = (0..).zip(&mesh.arcs).flat_map(|(index, arc)| {
-        (0..arc.vertex_count).map(move |k| slot(index, arc.first_vertex + k))
-    });
-    let slots: Vec<u32> = slots.collect();
-    let moved = |vertex: u32| match slots.get(vertex as usize) {
-        Some(&slot) => slot,
-        None => vertex + arc_count,
+    let corner = |vertex: u32, piece: u32| match slots.get(vertex as usize) {
+        Some(&(slot, right)) => 2 * slot + u32::from(right == Some(piece)),
+        None => 2 * (vertex + arc_count),
     };
-    mesh.cap_triangles
-        .iter()
-        .map(|triangle| triangle.map(moved))
+    let of_pieces = (0..).zip(&mesh.pieces).flat_map(|(index, piece)| {
+        let triangles = mesh.triangles_of(piece).iter();
+        triangles.map(move |triangle| (index, triangle))
+    });
+    of_pieces
+        .map(|(index, triangle)| triangle.map(|vertex| corner(vertex, index)))
         .collect()
 }
+
+#[cfg(all(test, feature = "countries"))]
+mod tests;

@@ -17,8 +17,10 @@ use crate::{
 /// What is drawn: each input kind has its own vertex entry point and topology.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Input {
-    /// Cap-only inputs, indexed.
+    /// Cap-only inputs of one piece a draw, indexed.
     Caps,
+    /// Cap-only inputs of many pieces, indexed.
+    MixedCaps,
     /// Degenerate wall inputs, a strip over boundary slots.
     Walls,
     /// Refined walls, indexed.
@@ -332,7 +334,7 @@ impl Pipelines {
             primitive: wgpu::PrimitiveState {
                 topology: match input {
                     Input::Walls => wgpu::PrimitiveTopology::TriangleStrip,
-                    Input::Caps | Input::Patches => wgpu::PrimitiveTopology::TriangleList,
+                    _ => wgpu::PrimitiveTopology::TriangleList,
                 },
                 unclipped_depth: projection.unclipped(),
                 ..Default::default()
@@ -394,6 +396,7 @@ impl Pipelines {
 fn vertex_entry(input: Input) -> &'static str {
     match input {
         Input::Caps => "vs_cap",
+        Input::MixedCaps => "vs_caps",
         Input::Walls => "vs_wall",
         Input::Patches => "vs_patch",
     }
@@ -402,6 +405,7 @@ fn vertex_entry(input: Input) -> &'static str {
 fn cover_entry(input: Input) -> &'static str {
     match input {
         Input::Caps => "vs_cap",
+        Input::MixedCaps => "vs_caps",
         Input::Walls => "vs_wall_cover",
         Input::Patches => "vs_patch_cover",
     }

@@ -75,7 +75,7 @@ pub(crate) fn build(regions: &[Region], options: &MeshOptions) -> Result<FillMes
             let loops_of = |piece: usize| -> Vec<Vec<u32>> {
                 let loops = pieces[piece].loops.iter();
                 loops
-                    .map(|edges| vertex_runs.loop_vertices(&graph, edges))
+                    .map(|edges| vertex_runs.loop_vertices(edges))
                     .collect()
             };
             let inside_sr = inside_sr(&ellipsoid, &pieces);
@@ -260,7 +260,7 @@ impl FillMesh {
                 .collect();
             room.check()?;
             for (chain, dense) in batch.iter().zip(dense) {
-                runs.add(graph, chain, &dense, self.vertices.len() as u32);
+                runs.add(chain, &dense, self.vertices.len() as u32);
                 self.add_arc(chain, &dense);
             }
         }

@@ -1,4 +1,4 @@
-//! Where the mesh keeps the vertices of nodes and edges.
+//! Where the mesh keeps the vertices of edges.
 
 use crate::{
     boundary::arcs::Chain,
@@ -6,10 +6,8 @@ use crate::{
     mesh::densify::DenseChain,
 };
 
-/// Where the vertices of the graph's nodes and edges are in the mesh.
+/// Where the vertices of the graph's edges are in the mesh.
 pub(crate) struct VertexRuns {
-    /// Per node one of its vertices.
-    node: Vec<u32>,
     /// Per edge its first and its last vertex, from its smaller node to its greater.
     edge: Vec<(u32, u32)>,
 }
@@ -17,19 +15,12 @@ pub(crate) struct VertexRuns {
 impl VertexRuns {
     pub(crate) fn new(graph: &BoundaryGraph) -> Self {
         Self {
-            node: vec![u32::MAX; graph.nodes.len()],
             edge: vec![(u32::MAX, u32::MAX); graph.edges.len()],
         }
     }
 
     /// Notes where a chain's vertices are, the first at `first_vertex`.
-    pub(crate) fn add(
-        &mut self,
-        graph: &BoundaryGraph,
-        chain: &Chain,
-        dense: &DenseChain,
-        first_vertex: u32,
-    ) {
+    pub(crate) fn add(&mut self, chain: &Chain, dense: &DenseChain, first_vertex: u32) {
         let end = dense.vertices.len() as u32 - 1;
         let starts = dense
             .edge_starts
@@ -39,8 +30,6 @@ impl VertexRuns {
             .map(|start| first_vertex + start);
         let starts: Vec<u32> = starts.collect();
         for (&edge, run) in chain.edges.iter().zip(starts.windows(2)) {
-            self.node[graph.start_node(edge) as usize] = run[0];
-            self.node[graph.end_node(edge) as usize] = run[1];
             self.edge[edge.edge() as usize] = if edge.is_forward() {
                 (run[0], run[1])
             } else {
@@ -61,15 +50,12 @@ impl VertexRuns {
         (0..=from.abs_diff(to)).map(step)
     }
 
-    /// The vertices of a loop, one for each position.
-    pub(crate) fn loop_vertices(&self, graph: &BoundaryGraph, edges: &[DirectedEdge]) -> Vec<u32> {
-        let mut vertices = Vec::with_capacity(edges.len());
-        for &edge in edges {
+    /// The vertices of a loop, one for each position: at nodes that of the arc that goes on from there.
+    pub(crate) fn loop_vertices(&self, edges: &[DirectedEdge]) -> Vec<u32> {
+        let but_last = |&edge: &DirectedEdge| {
             let (from, to) = self.edge[edge.edge() as usize];
-            vertices.push(self.node[graph.start_node(edge) as usize]);
-            let inner = from.abs_diff(to) as usize - 1;
-            vertices.extend(self.along(edge).skip(1).take(inner));
-        }
-        vertices
+            self.along(edge).take(from.abs_diff(to) as usize)
+        };
+        edges.iter().flat_map(but_last).collect()
     }
 }

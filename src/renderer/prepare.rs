@@ -186,11 +186,10 @@ impl Renderer {
     fn select(&self, frame: &Frame, counting: Counting) -> Result<Vec<Selected>, RendererError> {
         let tables = self.layers(counting)?;
         let layering = &tables.layering;
-        let layer_count = layering.count();
         self.meshes
             .iter()
-            .zip(&layering.codes)
-            .map(|((&id, resident), codes)| {
+            .enumerate()
+            .map(|(index, (&id, resident))| {
                 let mesh = &resident.mesh;
                 let finest = Sight::new(mesh.ellipsoid, mesh.sag_m, frame, &self.options)?;
                 let edged = tables.edges.iter().any(Option::is_some);
@@ -209,7 +208,7 @@ impl Renderer {
                 Ok(Selected {
                     id,
                     level,
-                    selection: Selection::of(mesh, codes, layer_count, &sight, &wants),
+                    selection: Selection::of(mesh, layering.coded(index), &sight, &wants),
                     sight,
                 })
             })
@@ -279,7 +278,14 @@ impl Renderer {
                     .any(|selected| has(&selected.selection.layers[index]))
             };
             let inputs: Vec<Input> = [
-                (Input::Caps, uses(|draws| !draws.caps.is_empty())),
+                (
+                    Input::Caps,
+                    uses(|draws| draws.caps.iter().any(|run| run.piece.is_some())),
+                ),
+                (
+                    Input::MixedCaps,
+                    uses(|draws| draws.caps.iter().any(|run| run.piece.is_none())),
+                ),
                 (Input::Walls, uses(|draws| !draws.walls.is_empty())),
                 (Input::Patches, uses(|draws| !draws.patches.is_empty())),
             ]

@@ -40,7 +40,7 @@ fn circles(at: LonLat, count: usize, seen_m: f64) -> Vec<(Zone, FillStyle)> {
         let [red, green, blue] = color;
         let style = FillStyle {
             color: [red, green, blue, 0.02 + 0.9 * part(k, 0.317).powi(4) as f32],
-            opacity: if k % 3 == 0 { 0.7 } else { 1.0 },
+            opacity: if k.is_multiple_of(3) { 0.7 } else { 1.0 },
             blend: Blend::Unordered,
             ..Default::default()
         };

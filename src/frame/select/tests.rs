@@ -79,9 +79,10 @@ impl Boundary {
 /// (tested in refine.rs), so that wall stands for it.
 fn boundary(mesh: &FillMesh, draws: &LayerDraws, patch: &Patch) -> Boundary {
     let mut boundary = Boundary::default();
-    for run in &draws.caps {
-        let weight = i64::from(draws.codes[run.piece as usize + 1]);
-        for triangle in run.triangles.clone() {
+    let chunks = draws.caps.iter().flat_map(|run| run.chunks(mesh));
+    for chunk in chunks {
+        let weight = i64::from(draws.codes[chunk.piece as usize + 1]);
+        for triangle in chunk.first_triangle..chunk.first_triangle + chunk.triangle_count {
             let corners =
                 mesh.cap_triangles[triangle as usize].map(|vertex| mesh.vertices[vertex as usize]);
             boundary.add(corners.map(|point_m| corner(point_m, TOP)), weight);
@@ -146,14 +147,7 @@ fn what_is_drawn_is_closed() {
         (LonLat::new(6.8, 49.2), 9_010.0, 60.0),
     ] {
         let sight = looking_down(at, height_m, field_of_view_deg, mesh.sag_m);
-        let layers = layering.layers.len();
-        let selection = Selection::of(
-            &mesh,
-            &layering.codes[0],
-            layers,
-            &sight,
-            &EdgeWants::default(),
-        );
+        let selection = Selection::of(&mesh, layering.coded(0), &sight, &EdgeWants::default());
         culled += selection.fills_culled;
         refined += selection.patch.chords.len();
         for draws in &selection.layers {

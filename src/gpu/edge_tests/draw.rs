@@ -116,13 +116,7 @@ pub fn draw(
         layers: &layers,
         slots: &slots.slots,
     };
-    let selection = Selection::of(
-        mesh,
-        &layering.codes[0],
-        layering.layers.len(),
-        &sight,
-        &wants,
-    );
+    let selection = Selection::of(mesh, layering.coded(0), &sight, &wants);
     let cost = edge_cost(&layers, std::iter::once(&selection));
     println!("{cost:?}, {} refined", selection.patch.chords.len());
 
