@@ -5,6 +5,7 @@ pub(crate) mod detail;
 pub(crate) mod edge_draws;
 pub(crate) mod edge_segments;
 pub(crate) mod edge_uniform;
+pub(crate) mod layer_set;
 pub(crate) mod layers;
 pub(crate) mod lens;
 pub(crate) mod mixture;

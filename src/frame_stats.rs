@@ -13,11 +13,11 @@ pub struct FrameStats {
     pub culled: u32,
     /// The technique that counted; differs from the one asked for where head-room forbade it.
     pub technique: CountTechnique,
-    /// Layers of mutually disjoint fills.
+    /// Layers of mutually disjoint fills, and one of all that are unordered.
     pub layers: u32,
     /// Layers that are resolved with patterns, strokes or fades: 0 where plain colours say all.
     pub styled_layers: u32,
-    /// Counting passes that `count` records.
+    /// Counting passes that `count` records: one for each layer of which anything is drawn.
     pub passes: u32,
     /// Passes in which `count` measures how far pixels are from boundaries: one for each layer with
     /// strokes or smooth edges.

@@ -3,6 +3,7 @@
 use std::{fmt, sync::Arc};
 
 use crate::{
+    frame::layer_set::LayerSet,
     frame::layers::{Layering, MAX_LAYERS},
     renderer::MeshId,
 };
@@ -27,6 +28,8 @@ pub struct Pick {
     layering: Arc<Layering>,
     /// In the order of the layering.
     meshes: Arc<[MeshId]>,
+    /// The layers in which there was anything.
+    shown: LayerSet,
 }
 
 impl Pick {
@@ -37,7 +40,22 @@ impl Pick {
         Self {
             layering,
             meshes: meshes.collect(),
+            shown: LayerSet::default(),
         }
+    }
+
+    /// The same question to the layers that show anything.
+    pub(crate) fn asking(&self, shown: LayerSet) -> Self {
+        Self {
+            shown,
+            ..self.clone()
+        }
+    }
+
+    /// The layers that are asked, in the order of the answers. That of a mixture holds no ids.
+    pub(crate) fn layers(&self) -> impl Iterator<Item = usize> {
+        let layers = 0..self.layering.layers.len();
+        layers.filter(|&layer| self.shown.contains(layer))
     }
 
     /// The fills that cover the pixel, the topmost first, each once; none where nothing is filled.
@@ -51,7 +69,7 @@ impl Pick {
             .unwrap_or_default()
             .chunks_exact(4)
             .map(|id| u32::from_le_bytes([id[0], id[1], id[2], id[3]]));
-        let mut below: Vec<(usize, u32)> = ids.enumerate().collect();
+        let mut below: Vec<(usize, u32)> = self.layers().zip(ids).collect();
         below.reverse();
         for (layer, id) in below {
             // Pieces of one fill may overlap, and lie in several layers.

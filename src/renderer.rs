@@ -299,10 +299,9 @@ impl Renderer {
     /// options' sample count and no depth attachment. Colours are premultiplied and blended over what
     /// is there.
     pub fn resolve(&self, view: &View, pass: &mut wgpu::RenderPass<'_>) {
-        if let Some(targets) = &view.targets
-            && !targets.layers.is_empty()
-        {
-            for (index, layer) in targets.layers.iter().enumerate() {
+        if let (Some(targets), Some(prepared)) = (&view.targets, &view.prepared) {
+            for index in prepared.shown.iter() {
+                let layer = &targets.layers[index];
                 pass.set_bind_group(0, &layer.resolve_group, &[]);
                 if !self.resolve_styled(view, pass, index)
                     && let Some(draw) = view.windows.get(index).copied().flatten()

@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use crate::{
+    frame::layer_set::LayerSet,
     frame::select::Selection,
     frame::sight::Sight,
     frame::volumes::Volume,
@@ -46,6 +47,8 @@ pub(crate) struct Prepared {
     pub projection: Projection,
     /// What a copy of logarithmic depths is made with: `logarithm` of copy_linear.wgsl.
     pub logarithm: Option<[f32; 4]>,
+    /// The layers in which anything is drawn: only these are counted and resolved.
+    pub shown: LayerSet,
     pub stats: FrameStats,
 }
 

@@ -102,6 +102,7 @@ fn fills_beside_the_picture_cost_no_draws() {
         let none = painter.draw(gpu, &mut view, &beside, 0.0);
         assert!(none.ids.iter().all(|&id| id == 0));
         assert_eq!((none.stats.draws, none.stats.drawn), (0, 2));
+        assert_eq!((none.stats.passes, none.stats.layers), (0, 1));
         let both = painter.draw(gpu, &mut view, &near, 0.0);
         assert!(both.ids.contains(&1) && both.ids.contains(&2));
     }

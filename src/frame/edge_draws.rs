@@ -92,6 +92,13 @@ pub(crate) struct EdgeDraws {
     pub segments: Vec<Range<u32>>,
 }
 
+impl EdgeDraws {
+    /// Whether nothing is drawn.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.chords.is_empty() && self.flat.is_empty() && self.segments.is_empty()
+    }
+}
+
 /// How far the edges of each arc reach, in each layer.
 pub(crate) struct ArcEdges {
     /// By layer, then by arc: whether they are drawn. Empty for layers without edges.

@@ -7,6 +7,7 @@ use crate::{
     frame::code::PlaneSums,
     frame::edge_draws::{ArcEdges, EdgeDraws, EdgeWants},
     frame::edge_segments::EdgeSegments,
+    frame::layer_set::LayerSet,
     frame::layers::{Coded, PieceCode},
     frame::refine::Patch,
     frame::sight::Sight,
@@ -152,6 +153,14 @@ impl Selection {
         selection
     }
 
+    /// Adds the layers in which anything is drawn.
+    pub(crate) fn add_shown(&self, shown: &mut LayerSet) {
+        let layers = self.layers.iter().enumerate();
+        layers
+            .filter(|(_, draws)| !draws.is_empty())
+            .for_each(|(layer, _)| shown.insert(layer));
+    }
+
     fn count_fills(
         &mut self,
         mesh: &FillMesh,
@@ -172,6 +181,12 @@ impl Selection {
 }
 
 impl LayerDraws {
+    /// Whether nothing is drawn.
+    fn is_empty(&self) -> bool {
+        let volumes = self.caps.is_empty() && self.walls.is_empty() && self.patches.is_empty();
+        volumes && self.edges.is_empty()
+    }
+
     /// Upper bounds, by plane, of |partial sum| at any pixel: all that is drawn of `mesh` added up.
     pub(crate) fn add_sums(&self, mesh: &FillMesh, sums: &mut PlaneSums) {
         let mut add = |triangles: usize, code: [u32; 4]| {

@@ -76,11 +76,15 @@ pub(crate) fn keys(
 
 impl Recorder<'_> {
     pub(crate) fn record(&self, encoder: &mut wgpu::CommandEncoder, depth: &wgpu::TextureView) {
+        if self.prepared.shown.is_empty() {
+            return;
+        }
         let copy = self.targets.copy.as_ref();
         if let Some(copy) = copy {
             self.record_depth_copy(encoder, depth, copy);
         }
-        for (index, target) in self.targets.layers.iter().enumerate() {
+        for index in self.prepared.shown.iter() {
+            let target = &self.targets.layers[index];
             match (self.prepared.technique, copy) {
                 (CountTechnique::Winding, copy) => {
                     self.record_winding(encoder, copy.unwrap_or(depth), index, target);
@@ -107,9 +111,7 @@ impl Recorder<'_> {
             stencil_ops: None,
         };
         let mut pass = begin(encoder, "globefill count", Some(target), read_only);
-        // The first query belongs to the copy of the depth, if there is one.
-        let copies = u32::from(self.targets.copy.is_some());
-        self.begin_statistics(&mut pass, index as u32 + copies);
+        self.begin_statistics(&mut pass, self.query(index));
         let count = |input| Key::Count {
             input,
             planes: self.targets.key.planes[index],
@@ -138,6 +140,13 @@ impl Recorder<'_> {
             }
         }
         self.end_statistics(&mut pass);
+    }
+
+    /// The query of a layer's pass: the first belongs to the copy of the depth, if there is one.
+    fn query(&self, layer: usize) -> u32 {
+        let copies = usize::from(self.targets.copy.is_some());
+        let before = self.prepared.shown.iter().take_while(|&it| it < layer);
+        (copies + before.count()) as u32
     }
 
     fn begin_statistics(&self, pass: &mut wgpu::RenderPass<'_>, index: u32) {
@@ -250,8 +259,7 @@ impl Recorder<'_> {
         };
         // Counting writes no colour but keeps the targets attached: one pass serves all fills.
         let mut pass = begin(encoder, "globefill stencil", Some(target), attachment);
-        // The first query belongs to the copy of the depth.
-        self.begin_statistics(&mut pass, index as u32 + 1);
+        self.begin_statistics(&mut pass, self.query(index));
         pass.set_stencil_reference(ONE_COUNTED);
         for drawn in &self.meshes {
             pass.set_bind_group(0, &drawn.view.frame_group, &[]);

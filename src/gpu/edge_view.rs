@@ -7,6 +7,7 @@ use glam::UVec2;
 use crate::{
     frame::edge_draws::{EdgeDraws, EdgeInput, LayerEdges},
     frame::edge_uniform::EdgeUniform,
+    frame::layer_set::LayerSet,
     frame::lens::LensKind,
     frame::reference::Reference,
     frame::select::Selection,
@@ -173,12 +174,13 @@ impl EdgeView {
         encoder: &mut wgpu::CommandEncoder,
         surface: &wgpu::BindGroup,
         meshes: &[Drawn<'_>],
+        shown: LayerSet,
     ) {
         let Some(nearest) = &self.nearest else {
             return;
         };
         for (index, layer) in self.layers.iter().enumerate() {
-            let Some(layer) = layer else {
+            let Some(layer) = layer.as_ref().filter(|_| shown.contains(index)) else {
                 continue;
             };
             let mut pass = begin(encoder, &layer.target, nearest);
@@ -227,19 +229,23 @@ pub(crate) fn edge_cost<'a>(
     layers: &[Option<LayerEdges>],
     selections: impl Iterator<Item = &'a Selection>,
 ) -> EdgeCost {
-    let mut cost = EdgeCost {
-        passes: layers.iter().flatten().count() as u32,
-        ..Default::default()
-    };
-    for edges in selections.flat_map(|selection| selection.layers.iter().map(|draws| &draws.edges))
-    {
-        for input in EdgeInput::ALL {
-            let runs = edges.runs(input);
-            cost.draws += runs.len() as u32;
-            let chords = runs.iter().map(|run| edges.chords_of(input, run).len());
-            cost.vertices += u64::from(input.corners()) * chords.sum::<usize>() as u64;
+    let mut cost = EdgeCost::default();
+    let mut shown = LayerSet::default();
+    for selection in selections {
+        selection.add_shown(&mut shown);
+        for edges in selection.layers.iter().map(|draws| &draws.edges) {
+            for input in EdgeInput::ALL {
+                let runs = edges.runs(input);
+                cost.draws += runs.len() as u32;
+                let chords = runs.iter().map(|run| edges.chords_of(input, run).len());
+                cost.vertices += u64::from(input.corners()) * chords.sum::<usize>() as u64;
+            }
         }
     }
+    let edged = shown
+        .iter()
+        .filter(|&layer| matches!(layers.get(layer), Some(Some(_))));
+    cost.passes = edged.count() as u32;
     cost
 }
 

@@ -66,7 +66,7 @@ impl PickPipeline {
         &self,
         device: &wgpu::Device,
         encoder: &mut wgpu::CommandEncoder,
-        layers: &[LayerTarget],
+        layers: &[&LayerTarget],
         pixel: UVec2,
     ) -> wgpu::Buffer {
         let head = AnswerHead {

@@ -1,6 +1,7 @@
 //! What a view keeps of styles: where its eye finds the patterns, and what is bound.
 
 use crate::{
+    frame::layer_set::LayerSet,
     frame::layers::Counting,
     frame::lens::LensKind,
     frame::placed::{PatternPlace, Placed},
@@ -160,12 +161,13 @@ impl StyleView {
         encoder: &mut wgpu::CommandEncoder,
         depth: &wgpu::TextureView,
         meshes: &[Drawn<'_>],
+        shown: LayerSet,
     ) {
         self.surface.bind(device, &pipelines.surface_layout, depth);
         if let (Some(edges), Some(edge_pipelines), Some(surface)) =
             (&self.edges, &pipelines.edges, self.surface.group())
         {
-            edges.record(edge_pipelines, encoder, surface, meshes);
+            edges.record(edge_pipelines, encoder, surface, meshes, shown);
         }
     }
 

@@ -56,11 +56,6 @@ pub(crate) struct LayerTarget {
 }
 
 impl Targets {
-    /// The layers that sum ids.
-    pub(crate) fn of_ids(&self) -> &[LayerTarget] {
-        &self.layers[..self.layers.len() - usize::from(self.mixture.is_some())]
-    }
-
     pub(crate) fn new(
         device: &wgpu::Device,
         pipelines: &Pipelines,

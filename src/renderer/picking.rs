@@ -6,6 +6,7 @@ use super::Renderer;
 use crate::{
     error::RendererError,
     gpu::pick_pipeline::{IDS_AT, PickPipeline},
+    gpu::targets::LayerTarget,
     pick::Pick,
     view::View,
 };
@@ -40,9 +41,12 @@ impl Renderer {
         let Some(targets) = view.targets.as_ref().filter(|_| pixel.cmplt(size_px).all()) else {
             return Err(RendererError::NoSuchPixel(pixel));
         };
-        if targets.of_ids().is_empty() {
+        let shown = view.prepared.map(|it| it.shown).unwrap_or_default();
+        let pick = targets.pick.asking(shown);
+        let asked: Vec<&LayerTarget> = pick.layers().map(|layer| &targets.layers[layer]).collect();
+        if asked.is_empty() {
             encoder.clear_buffer(into, offset, Some(Pick::BYTES));
-            return Ok(targets.pick.clone());
+            return Ok(pick);
         }
         if self.device.limits().max_compute_invocations_per_workgroup == 0 {
             return Err(RendererError::Unsupported("picking needs compute shaders"));
@@ -51,8 +55,8 @@ impl Renderer {
             let samples = self.options.sample_count;
             PickPipeline::new(&self.device, &self.pipelines.resolve_layout, samples)
         });
-        let answer = pipeline.ask(&self.device, encoder, targets.of_ids(), pixel);
+        let answer = pipeline.ask(&self.device, encoder, &asked, pixel);
         encoder.copy_buffer_to_buffer(&answer, IDS_AT, into, offset, Some(Pick::BYTES));
-        Ok(targets.pick.clone())
+        Ok(pick)
     }
 }

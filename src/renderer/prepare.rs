@@ -7,6 +7,7 @@ use crate::{
     error::RendererError,
     frame::code::PlaneSums,
     frame::edge_draws::EdgeWants,
+    frame::layer_set::LayerSet,
     frame::layers::{Counting, Styled},
     frame::lens::log_range,
     frame::mixture::Burden,
@@ -58,8 +59,12 @@ impl Renderer {
             mirrored: sight.is_some_and(|sight| sight.mirrored),
             projection: sight.map(Projection::of).unwrap_or_default(),
             logarithm: sight.and_then(logarithm),
+            shown: LayerSet::default(),
             stats: FrameStats::default(),
         };
+        for selected in &selections {
+            selected.selection.add_shown(&mut prepared.shown);
+        }
         require(self.device.features(), prepared.projection.features())?;
         self.check_styles(&selections, counting)?;
         self.ensure_targets(view, &prepared, counting)?;
@@ -398,9 +403,8 @@ impl Renderer {
             .targets
             .as_ref()
             .map_or(0, |targets| targets.layers.len() as u32);
-        // Resolve draws a window a layer, if it shows any, or one for each array of images; a copy of the
-        // depth is another.
-        for layer in 0..stats.layers as usize {
+        // Resolve draws a window a layer, or one for each array of images; a copy of the depth is another.
+        for layer in prepared.shown.iter() {
             let styled = view
                 .styles
                 .as_ref()
@@ -413,8 +417,8 @@ impl Renderer {
             stats.draws += styles.edge_cost.draws;
             stats.vertices += styles.edge_cost.vertices;
         }
-        stats.passes = stats.layers;
-        if copied.is_some() && stats.layers > 0 {
+        stats.passes = prepared.shown.len();
+        if copied.is_some() && stats.passes > 0 {
             stats.draws += 1;
             stats.passes += 1;
         }

@@ -238,7 +238,8 @@ impl Renderer {
     ) {
         if let (Some(styles), Some(pipelines)) = (&mut view.styles, &self.style_pipelines) {
             let meshes = self.drawn(&view.meshes);
-            styles.count(&self.device, pipelines, encoder, depth, &meshes);
+            let shown = view.prepared.map(|it| it.shown).unwrap_or_default();
+            styles.count(&self.device, pipelines, encoder, depth, &meshes, shown);
         }
     }
 
