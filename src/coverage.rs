@@ -13,7 +13,28 @@ pub const CLEAR: Color = [0.0; 4];
 
 /// Colours by how many sensors cover a surface point: entry k for k sensors, the last for more.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "Vec<Color>", into = "Vec<Color>")
+)]
 pub struct CoverageColors(Vec<Color>);
+
+#[cfg(feature = "serde")]
+impl TryFrom<Vec<Color>> for CoverageColors {
+    type Error = SensorError;
+
+    fn try_from(colors: Vec<Color>) -> Result<Self, SensorError> {
+        Self::table(colors)
+    }
+}
+
+#[cfg(feature = "serde")]
+impl From<CoverageColors> for Vec<Color> {
+    fn from(colors: CoverageColors) -> Self {
+        colors.0
+    }
+}
 
 impl CoverageColors {
     /// A colour for every count from 0 up; the last serves for all greater counts.

@@ -6,6 +6,11 @@ use crate::geodetic::LonLat;
 
 /// An ellipsoid of revolution about the z axis of its earth-centred, earth-fixed (ECEF) frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct Ellipsoid {
     /// Equatorial radius, metres.
     pub a_m: f64,

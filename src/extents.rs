@@ -9,6 +9,11 @@ use crate::geodetic::LonLat;
 /// From `west_deg` eastwards to `east_deg`: one that crosses the antimeridian has the greater number in
 /// the west, or an east above 180. A difference of 360 is the whole circle.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct Extents {
     /// Western edge.
     pub west_deg: f64,

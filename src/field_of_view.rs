@@ -1,5 +1,8 @@
 //! What a sensor sees around its boresight.
 
+#[cfg(feature = "serde")]
+mod written;
+
 use std::{f64::consts::PI, sync::Arc};
 
 use glam::DVec3;
@@ -13,6 +16,11 @@ pub const MAX_CORNERS: usize = 64;
 ///
 /// Cheap to clone: corners are shared.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "written::Written", into = "written::Written")
+)]
 pub struct FieldOfView(pub(crate) Shape);
 
 /// The kinds of field of view.
@@ -96,7 +104,7 @@ impl FieldOfView {
         if !(3..=MAX_CORNERS).contains(&count) {
             return Err(SensorError::Corners(count));
         }
-        let corners: Arc<[DVec3]> = corners.iter().map(|corner| corner.normalize()).collect();
+        let corners: Arc<[DVec3]> = corners.iter().map(unit).collect();
         if let Some(corner) = corners.iter().position(|corner| !corner.is_finite()) {
             return Err(SensorError::Corner(corner));
         }
@@ -121,6 +129,17 @@ impl FieldOfView {
             }
         }
         Ok(Self(Shape::Pyramid { corners, inward }))
+    }
+}
+
+/// A direction of length 1. What has that already, up to rounding, stays as it is, so that a field of
+/// view made of its own corners is the same.
+fn unit(direction: &DVec3) -> DVec3 {
+    // Normalising leaves a square off by up to some 12 roundings.
+    if (direction.length_squared() - 1.0).abs() <= 2e-15 {
+        *direction
+    } else {
+        direction.normalize()
     }
 }
 

@@ -12,6 +12,11 @@ use crate::{
 
 /// How regions are meshed.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct MeshOptions {
     /// The ellipsoid that longitudes and latitudes refer to.
     pub ellipsoid: Ellipsoid,

@@ -4,6 +4,11 @@
 ///
 /// Longitudes that differ by 360° name the same point; at ±90° latitude every longitude does.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct LonLat {
     /// Geodetic longitude, degrees east.
     pub lon_deg: f64,

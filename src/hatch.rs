@@ -16,6 +16,11 @@ use crate::{
 /// 0.2 % at 600 km and one half at 90°. The map has no seam but the antipode itself: neither poles nor
 /// the antimeridian show.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct Hatch {
     /// What repeats.
     pub kind: HatchKind,
@@ -44,6 +49,11 @@ pub struct Hatch {
 
 /// What repeats.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "snake_case")
+)]
 pub enum HatchKind {
     /// Parallel lines.
     #[default]

@@ -15,7 +15,13 @@ use self::srgb::Srgb;
 use crate::error::ImageError;
 
 /// Names an image in a [`Renderer`](crate::Renderer).
+///
+/// With the feature `serde` it is written as a number. That means something in the renderer that gave it
+/// out, and in no other: write beside the styles which file each number was, insert the files on reading,
+/// and exchange the numbers with [`FillStyle::map_image`](crate::FillStyle::map_image). A number that the
+/// renderer does not know is refused there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ImageId(pub(crate) u32);
 
 /// Most texels of an image along a side.

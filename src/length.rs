@@ -2,6 +2,11 @@
 
 /// A length of a pattern or of a stroke.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "snake_case")
+)]
 pub enum Length {
     /// Metres on the ellipsoid.
     Metres(f32),

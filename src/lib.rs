@@ -163,6 +163,7 @@ pub mod frame_stats;
 #[cfg(feature = "geojson")]
 pub mod geo_json;
 pub mod geodetic;
+pub mod guide;
 pub mod hatch;
 pub mod image;
 pub mod image_fill;

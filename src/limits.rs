@@ -21,6 +21,11 @@ use std::fmt;
 /// # Ok::<(), globefill::RegionError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct Limits {
     /// Most bytes of a GeoJSON text. Default: 2³⁰.
     pub text_bytes: usize,

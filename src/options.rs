@@ -4,6 +4,11 @@ use glam::{DMat3, DMat4, DVec3, UVec2};
 
 /// Which way the host's depth buffer runs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "snake_case")
+)]
 pub enum DepthConvention {
     /// Nearer is greater: 1 at the near plane, 0 at infinity or at the far plane.
     #[default]
@@ -14,6 +19,11 @@ pub enum DepthConvention {
 
 /// How covered surface points are counted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "snake_case")
+)]
 pub enum CountTechnique {
     /// Packed winding accumulation: every volume face once, added into a float target.
     #[default]
@@ -24,6 +34,11 @@ pub enum CountTechnique {
 
 /// Fixed properties of the host's frame and of the technique.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct RendererOptions {
     /// Format of the colour attachment of the pass given to [`resolve`](crate::Renderer::resolve).
     pub color_format: wgpu::TextureFormat,
@@ -60,6 +75,11 @@ impl Default for RendererOptions {
 
 /// The camera of one view, in double precision.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct Camera {
     /// Position of the eye, ECEF metres.
     pub eye_ecef_m: DVec3,
@@ -83,6 +103,11 @@ pub struct Camera {
 /// What lies outside is no surface: fills do not reach it, and sensors leave out what lies more than
 /// 1 km and a hundredth of the distance beyond, such as satellites and sky domes in the depth buffer.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct HeightRange {
     /// No visible surface point lies lower.
     pub min_m: f64,
@@ -98,16 +123,27 @@ pub struct HeightRange {
 /// The sky is 1. A host writes that for each fragment. Where it does so for each vertex, depths between are
 /// others, and what is drawn is off by as much, unless its triangles are so small that it does not show.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct LogDepth {
     /// Nothing nearer is drawn, metres.
     pub near_m: f64,
     /// Where depth is 1, metres.
     pub far_m: f64,
     /// Where depth is 0, metres.
+    #[cfg_attr(feature = "serde", serde(default))]
     pub from_m: f64,
     /// By how much the logarithm's argument grows per metre: distances below its inverse are told apart in
     /// equal steps, those beyond in proportion.
+    #[cfg_attr(feature = "serde", serde(default = "one_per_m"))]
     pub per_m: f64,
+}
+
+fn one_per_m() -> f64 {
+    1.0
 }
 
 impl LogDepth {
@@ -117,7 +153,7 @@ impl LogDepth {
             near_m,
             far_m,
             from_m: 0.0,
-            per_m: 1.0,
+            per_m: one_per_m(),
         }
     }
 
@@ -132,6 +168,11 @@ impl LogDepth {
 
 /// What a view looks at in one frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct Frame {
     /// The camera the host drew its globe with.
     pub camera: Camera,
@@ -139,16 +180,28 @@ pub struct Frame {
     pub size_px: UVec2,
     /// Between which heights the host's surface lies. Both 0: the bare ellipsoid. What stands higher, such as
     /// a model, may be filled like the surface below it.
+    #[cfg_attr(feature = "serde", serde(default))]
     pub terrain: HeightRange,
     /// How far, pixels, a drawn boundary may lie from the true one; 0 asks for the best there is.
+    #[cfg_attr(feature = "serde", serde(default = "quarter_px"))]
     pub pixel_error: f64,
     /// How far, pixels, the host's surface may lie below the given heights because its mesh is
     /// coarse when far.
+    #[cfg_attr(feature = "serde", serde(default = "one_px"))]
     pub host_pixel_error: f64,
     /// How depths follow from distances, if logarithmically: in perspectives, whose row of depth is then
     /// not asked. The depth needs `TEXTURE_BINDING`; counting starts with a pass that copies it. None: as
     /// [`Camera::clip_from_view`] and [`RendererOptions::depth`] say.
+    #[cfg_attr(feature = "serde", serde(default))]
     pub log_depth: Option<LogDepth>,
+}
+
+fn quarter_px() -> f64 {
+    0.25
+}
+
+fn one_px() -> f64 {
+    1.0
 }
 
 impl Frame {
@@ -159,8 +212,8 @@ impl Frame {
             camera,
             size_px,
             terrain: HeightRange::default(),
-            pixel_error: 0.25,
-            host_pixel_error: 1.0,
+            pixel_error: quarter_px(),
+            host_pixel_error: one_px(),
             log_depth: None,
         }
     }

@@ -4,6 +4,11 @@ use crate::{geodetic::LonLat, zone::Zone};
 
 /// How consecutive vertices of a ring are joined.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "snake_case")
+)]
 pub enum EdgeKind {
     /// The shortest path on the ellipsoid. Its ends must not be nearly antipodal.
     #[default]
@@ -18,6 +23,11 @@ pub enum EdgeKind {
 
 /// Which side of a shell ring is inside. Holes are holes whatever their winding.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "snake_case")
+)]
 pub enum Inside {
     /// The side with the smaller area, whatever the ring's winding.
     #[default]
@@ -31,10 +41,16 @@ pub type Ring = Vec<LonLat>;
 
 /// A shell and the holes in it.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct Polygon {
     /// The outer ring.
     pub shell: Ring,
     /// Rings cut out of the shell: of each, the side away from the shell is removed.
+    #[cfg_attr(feature = "serde", serde(default))]
     pub holes: Vec<Ring>,
 }
 
@@ -43,6 +59,11 @@ pub struct Polygon {
 /// Polygons and zones of one region that overlap are drawn one above the other: where they do, a
 /// translucent style is blended twice.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct Region {
     /// The parts of the region.
     pub polygons: Vec<Polygon>,

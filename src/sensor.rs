@@ -11,6 +11,11 @@ use crate::{
 
 /// Where a sensor is and how it is turned, in ECEF.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct Pose {
     /// Position of the apex, metres. It must lie above the ellipsoid.
     pub apex_ecef_m: DVec3,
@@ -37,6 +42,11 @@ impl Pose {
 
 /// Which points at a height above the ellipsoid a footprint covers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "snake_case")
+)]
 pub enum Extrusion {
     /// Those whose geodetic foot point the sensor sees on the bare ellipsoid: a footprint as on a map.
     #[default]
@@ -54,6 +64,11 @@ pub enum Extrusion {
 /// - if the sensor stands there at least `min_elevation_rad` above the plane at right angles to the
 ///   geodetic normal.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct Sensor {
     /// Where it is and how it is turned.
     pub pose: Pose,
@@ -61,8 +76,10 @@ pub struct Sensor {
     pub field_of_view: FieldOfView,
     /// Least elevation of the sensor, radians, −π/2 … π/2, seen from a covered point; `None` for no
     /// limit but the limb.
+    #[cfg_attr(feature = "serde", serde(default))]
     pub min_elevation_rad: Option<f64>,
     /// What is covered above and below the ellipsoid.
+    #[cfg_attr(feature = "serde", serde(default))]
     pub extrusion: Extrusion,
 }
 

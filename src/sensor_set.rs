@@ -20,6 +20,11 @@ pub struct SensorId(u64);
 
 /// How a footprint looks.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct SensorStyle {
     /// Red, green, blue, alpha, 0 … 1, not premultiplied, as in
     /// [`FillStyle::color`](crate::FillStyle::color). An alpha above 0.99 is drawn as 0.99.
@@ -39,6 +44,11 @@ impl Default for SensorStyle {
 
 /// What is shown of the sensors.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "snake_case")
+)]
 pub enum SensorDisplay {
     /// Every footprint in its colour, whatever their order: each is a filter that lets 1 − α of the
     /// light through, so n equal footprints have the opacity 1 − (1 − α)ⁿ, as if drawn one over the

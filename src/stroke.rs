@@ -8,6 +8,11 @@ use crate::{
 
 /// A line along the boundary of a fill, smooth-edged, on the surface like the fill itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct Stroke {
     /// Red, green, blue, alpha, as in [`FillStyle::color`](crate::FillStyle::color); over the fill.
     pub color: [f32; 4],
@@ -21,6 +26,11 @@ pub struct Stroke {
 
 /// On which side of a boundary its stroke lies.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "snake_case")
+)]
 pub enum Align {
     /// In the fill.
     #[default]
@@ -33,6 +43,11 @@ pub enum Align {
 
 /// Dashes along a boundary.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct Dash {
     /// From the start of a dash to the start of the next. In pixels it is met within a factor √2, like
     /// the spacing of a [`Hatch`](crate::Hatch).

@@ -16,6 +16,11 @@ use crate::{
 /// What a style does not use costs nothing: a frame of colours alone is drawn by a pipeline that
 /// knows no patterns, strokes or fades, and needs no surface positions.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct FillStyle {
     /// Red, green, blue, alpha, 0 … 1, not premultiplied, written to the colour target as they are:
     /// linear values for an sRGB format.
@@ -58,6 +63,11 @@ impl Default for FillStyle {
 
 /// What may lie over a fill's colour.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "snake_case")
+)]
 pub enum Pattern {
     /// Lines, crossed lines, dots, a checker or an image of one's own, repeated.
     Hatch(Hatch),
@@ -79,8 +89,31 @@ impl Pattern {
     }
 }
 
+impl FillStyle {
+    /// The same style with its image, if it shows one, exchanged for what `image` answers.
+    ///
+    /// For styles that were written to a file: the images in them are those of the renderer that they
+    /// were set in, and are to be inserted anew.
+    pub fn map_image(mut self, image: impl FnOnce(ImageId) -> ImageId) -> Self {
+        match &mut self.pattern {
+            Some(Pattern::Hatch(Hatch {
+                kind: HatchKind::Image(shown),
+                ..
+            })) => *shown = image(*shown),
+            Some(Pattern::Image(fill)) => fill.image = image(fill.image),
+            Some(Pattern::Hatch(_)) | None => {}
+        }
+        self
+    }
+}
+
 /// How a fill meets what is below it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "snake_case")
+)]
 pub enum Blend {
     /// Over it: premultiplied alpha.
     #[default]
@@ -99,6 +132,11 @@ pub enum Blend {
 
 /// Where a fill fades, decided at each pixel; the ramps that are given multiply.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct Fade {
     /// By the distance from the eye to the surface, metres.
     pub distance_m: Option<Ramp>,
@@ -112,6 +150,11 @@ pub struct Fade {
 
 /// Full opacity at one value, none at the other, in between in proportion. Either may be the greater.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct Ramp {
     /// Here and beyond nothing fades.
     pub full: f32,

@@ -47,6 +47,11 @@ pub const WIDEST_HALF: f64 = 0.3;
 /// # Ok::<(), globefill::RegionError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "snake_case", deny_unknown_fields)
+)]
 pub enum Zone {
     /// The points up to `radius_m` from `centre`.
     Circle {

@@ -1,29 +1,40 @@
-//! A host without a window. It draws no globe at all: it clears its depth to the distance of the
-//! ground, a plane that touches the globe under the camera. Your engine's globe goes there.
+//! Stands for your application: it owns the device, draws a globe into colour and depth, and knows
+//! nothing of fills. Without a window; the picture becomes a file.
 
 use std::error::Error;
 
-use glam::{DMat3, DVec3, UVec2, dcamera::rh::proj::directx::perspective_infinite_reverse};
-use globefill::{Camera, Ellipsoid, LonLat, RendererOptions, wgpu};
-use wgpu::TextureUsages as Usage;
+use glam::{DMat3, DMat4, DVec3, UVec2, dcamera::rh::proj::directx::perspective_infinite_reverse};
+use wgpu::{TextureFormat, TextureUsages as Usage};
 
 /// Pixels of the picture.
 pub const SIZE: UVec2 = UVec2::new(640, 480);
-const HEIGHT_M: f64 = 1.6e6;
-const NEAR_M: f64 = 1e4;
+pub const COLOR: TextureFormat = TextureFormat::Rgba8UnormSrgb;
+pub const DEPTH: TextureFormat = TextureFormat::Depth32Float;
 
-/// Device and targets.
+const NEAR_M: f64 = 1e4;
+/// WGS84, metres.
+const RADII_M: DVec3 = DVec3::new(6_378_137.0, 6_378_137.0, 6_356_752.314_245_179);
+
+/// Device, targets and the globe.
 pub struct Host {
     pub device: wgpu::Device,
     pub queue: wgpu::Queue,
     pub depth_view: wgpu::TextureView,
     color: wgpu::Texture,
     color_view: wgpu::TextureView,
+    globe: wgpu::RenderPipeline,
+}
+
+/// Where the camera is, metres from the Earth's centre; how it is turned; its projection.
+pub struct Eye {
+    pub position_m: DVec3,
+    pub view_from_ecef: DMat3,
+    pub clip_from_view: DMat4,
 }
 
 impl Host {
     /// Opens the first adapter with what it has of the wanted features.
-    pub fn open(wanted: wgpu::Features, options: &RendererOptions) -> Result<Self, Box<dyn Error>> {
+    pub fn open(wanted: wgpu::Features) -> Result<Self, Box<dyn Error>> {
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
         let adapter = pollster::block_on(instance.request_adapter(&Default::default()))?;
         let (device, queue) =
@@ -31,50 +42,64 @@ impl Host {
                 required_features: wanted & adapter.features(),
                 ..Default::default()
             }))?;
-        let color = texture(&device, options.color_format, Usage::COPY_SRC);
-        let depth = texture(&device, options.depth_format, Usage::TEXTURE_BINDING);
+        let color = texture(&device, COLOR, Usage::COPY_SRC);
+        let depth = texture(&device, DEPTH, Usage::TEXTURE_BINDING);
         Ok(Self {
             depth_view: depth.create_view(&Default::default()),
             color_view: color.create_view(&Default::default()),
+            globe: globe(&device),
             color,
             device,
             queue,
         })
     }
 
-    /// Looks straight down on Italy, north up.
-    pub fn camera(&self) -> Camera {
-        let foot = LonLat::new(12.5, 42.0);
-        let up = Ellipsoid::WGS84.normal(foot);
+    /// Above Italy, looking down, north up.
+    pub fn eye(&self) -> Eye {
+        let (lon, lat) = (12.5_f64.to_radians(), 42_f64.to_radians());
+        let up = DVec3::new(lat.cos() * lon.cos(), lat.cos() * lon.sin(), lat.sin());
         let east = DVec3::Z.cross(up).normalize();
         let aspect = f64::from(SIZE.x) / f64::from(SIZE.y);
-        Camera {
-            eye_ecef_m: Ellipsoid::WGS84.ecef(foot, HEIGHT_M),
+        Eye {
+            position_m: 8e6 * up,
             view_from_ecef: DMat3::from_cols(east, up.cross(east), up).transpose(),
             clip_from_view: perspective_infinite_reverse(60_f64.to_radians(), aspect, NEAR_M),
         }
     }
 
-    /// Stands in for the host's own drawing.
+    /// The globe, into colour and depth.
     pub fn draw_globe(&self, encoder: &mut wgpu::CommandEncoder) {
-        let ground = wgpu::Color {
-            r: 0.02,
-            g: 0.05,
-            b: 0.12,
-            a: 1.0,
-        };
+        let uniform = self.device.create_buffer(&wgpu::BufferDescriptor {
+            label: None,
+            size: 64,
+            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        self.queue.write_buffer(&uniform, 0, &self.sight());
+        let group = self.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: None,
+            layout: &self.globe.get_bind_group_layout(0),
+            entries: &[wgpu::BindGroupEntry {
+                binding: 0,
+                resource: uniform.as_entire_binding(),
+            }],
+        });
         let depth = wgpu::RenderPassDepthStencilAttachment {
             view: &self.depth_view,
             depth_ops: Some(wgpu::Operations {
-                load: wgpu::LoadOp::Clear((NEAR_M / HEIGHT_M) as f32),
+                load: wgpu::LoadOp::Clear(0.0),
                 store: wgpu::StoreOp::Store,
             }),
             stencil_ops: None,
         };
-        self.begin(encoder, wgpu::LoadOp::Clear(ground), Some(depth));
+        let black = wgpu::LoadOp::Clear(wgpu::Color::BLACK);
+        let mut pass = self.begin(encoder, black, Some(depth));
+        pass.set_pipeline(&self.globe);
+        pass.set_bind_group(0, &group, &[]);
+        pass.draw(0..3, 0..1);
     }
 
-    /// The pass that the fills are resolved in.
+    /// A pass over the picture as it is, without depth.
     pub fn color_pass<'a>(&self, encoder: &'a mut wgpu::CommandEncoder) -> wgpu::RenderPass<'a> {
         self.begin(encoder, wgpu::LoadOp::Load, None)
     }
@@ -98,6 +123,27 @@ impl Host {
             depth_stencil_attachment,
             ..Default::default()
         })
+    }
+
+    /// `Sight` of globe.wgsl.
+    fn sight(&self) -> Vec<u8> {
+        let eye = self.eye();
+        let ahead = [
+            eye.clip_from_view.x_axis.x,
+            eye.clip_from_view.y_axis.y,
+            -1.0,
+        ];
+        let view_from_clip = DMat3::from_diagonal(DVec3::from_array(ahead).recip());
+        let scale = DMat3::from_diagonal(RADII_M.recip());
+        let directions = scale * eye.view_from_ecef.transpose() * view_from_clip;
+        let columns = [
+            directions.x_axis.extend(0.0),
+            directions.y_axis.extend(0.0),
+            directions.z_axis.extend(0.0),
+            (eye.position_m / RADII_M).extend(NEAR_M),
+        ];
+        let numbers = columns.iter().flat_map(|it| it.as_vec4().to_array());
+        numbers.flat_map(f32::to_le_bytes).collect()
     }
 
     /// Submits the frame and writes its picture; the width is a multiple of 64, so rows need no
@@ -132,7 +178,38 @@ impl Host {
     }
 }
 
-fn texture(device: &wgpu::Device, format: wgpu::TextureFormat, usage: Usage) -> wgpu::Texture {
+fn globe(device: &wgpu::Device) -> wgpu::RenderPipeline {
+    let shader = device.create_shader_module(wgpu::include_wgsl!("globe.wgsl"));
+    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some("globe"),
+        layout: None,
+        vertex: wgpu::VertexState {
+            module: &shader,
+            entry_point: None,
+            compilation_options: Default::default(),
+            buffers: &[],
+        },
+        fragment: Some(wgpu::FragmentState {
+            module: &shader,
+            entry_point: None,
+            compilation_options: Default::default(),
+            targets: &[Some(COLOR.into())],
+        }),
+        primitive: Default::default(),
+        depth_stencil: Some(wgpu::DepthStencilState {
+            format: DEPTH,
+            depth_write_enabled: Some(true),
+            depth_compare: Some(wgpu::CompareFunction::Greater),
+            stencil: Default::default(),
+            bias: Default::default(),
+        }),
+        multisample: Default::default(),
+        multiview_mask: None,
+        cache: None,
+    })
+}
+
+fn texture(device: &wgpu::Device, format: TextureFormat, usage: Usage) -> wgpu::Texture {
     device.create_texture(&wgpu::TextureDescriptor {
         label: None,
         size: wgpu::Extent3d {

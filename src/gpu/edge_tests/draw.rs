@@ -8,6 +8,7 @@ use crate::{
     frame::{
         code::Mantissa,
         edge_draws::{EdgeWants, LayerEdges},
+        layer_set::LayerSet,
         layers::{Counting, Layer, Layering, Styled},
         select::Selection,
         sight::Sight,
@@ -152,6 +153,8 @@ pub fn draw(
         mesh: &uploaded,
         weights: None,
     };
+    let mut shown = LayerSet::default();
+    selection.add_shown(&mut shown);
     view.upload(&to, 0, &sight, selection);
     let mut encoder = device.create_command_encoder(&Default::default());
     let drawn = [Drawn {
@@ -160,7 +163,7 @@ pub fn draw(
         view: &view,
     }];
     let surface = surface.group().expect("the depth was bound");
-    edges.record(&edge_pipelines, &mut encoder, surface, &drawn);
+    edges.record(&edge_pipelines, &mut encoder, surface, &drawn, shown);
     queue.submit([encoder.finish()]);
     let target = edges.target(0).expect("edges were asked for");
     read(gpu, target.texture())
