@@ -91,7 +91,7 @@ impl Screen {
 
 fn visuals() -> egui::Visuals {
     let mut visuals = egui::Visuals::dark();
-    visuals.panel_fill = egui::Color32::from_rgba_unmultiplied(16, 20, 28, 235);
+    visuals.panel_fill = egui::Color32::from_rgb(16, 20, 28);
     visuals.window_fill = visuals.panel_fill;
     visuals.selection.bg_fill = egui::Color32::from_rgb(36, 94, 160);
     visuals

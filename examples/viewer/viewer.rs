@@ -249,10 +249,17 @@ impl Viewer {
         }
         if let Some(country) = countries.under_pointer {
             let (name, area) = (countries.name(country), countries.area(country));
-            globe.show_tooltip_ui(|ui| {
-                ui.strong(name);
-                ui.label(area);
-            });
+            let at = globe.hover_pos().unwrap_or_default() + egui::vec2(18.0, 14.0);
+            egui::Area::new(globe.id.with("name"))
+                .order(egui::Order::Tooltip)
+                .fixed_pos(at)
+                .interactable(false)
+                .show(&globe.ctx, |ui| {
+                    egui::Frame::popup(ui.style()).show(ui, |ui| {
+                        ui.strong(name);
+                        ui.label(area);
+                    })
+                });
         }
     }
 
