@@ -1,11 +1,26 @@
-//! If something is not drawn as expected.
+//! How to use the crate, chapter by chapter. What an item does stands with the item; here is what to choose.
 //!
-//! | What is seen | Why |
-//! |---|---|
-//! | nothing, though `FrameStats::drawn` is above 0 | the globe's pass ends with `StoreOp::Discard` for the depth; `RendererOptions::depth` runs the other way; the camera is not the one that the globe was drawn with |
-//! | fills on models | what is in the depth when `count` runs is filled: draw models after `resolve` |
-//! | mountains stay bare | they stand above `Frame::terrain.max_m` |
-//! | wgpu asks for `TEXTURE_BINDING` | sensors, patterns, strokes, fades, smooth edges, the stencil and logarithmic depths read the depth as a texture |
-//! | jagged edges | four samples, or `RendererOptions::smooth_edges` on hosts with one |
-//! | the first frame is slow | pipelines are compiled when a frame first needs them |
-//! | the rest of the globe is filled | `Region::inside` |
+//! 1. [`getting_started`]: from a GeoJSON file to fills in a frame.
+//! 2. [`frame_order`]: what the host does before, between and after.
+//! 3. [`choosing`]: meshes and sensors, styles, counting.
+//! 4. [`accuracy`]: what is exact, and what the budgets mean.
+//! 5. [`performance`]: what costs, and what does not.
+//! 6. [`troubleshooting`]: if something is not drawn as expected.
+
+#[doc = include_str!("guide/getting_started.md")]
+pub mod getting_started {}
+
+#[doc = include_str!("guide/frame_order.md")]
+pub mod frame_order {}
+
+#[doc = include_str!("guide/choosing.md")]
+pub mod choosing {}
+
+#[doc = include_str!("guide/accuracy.md")]
+pub mod accuracy {}
+
+#[doc = include_str!("guide/performance.md")]
+pub mod performance {}
+
+#[doc = include_str!("guide/troubleshooting.md")]
+pub mod troubleshooting {}
