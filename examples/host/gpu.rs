@@ -37,11 +37,6 @@ impl Gpu {
         let wanted = Renderer::wanted_features()
             | wgpu::Features::PIPELINE_STATISTICS_QUERY
             | wgpu::Features::TIMESTAMP_QUERY;
-        Self::of(&adapter, wanted).await
-    }
-
-    /// A device of an adapter, with what it has of the features.
-    pub async fn of(adapter: &wgpu::Adapter, wanted: wgpu::Features) -> Result<Self, String> {
         let (device, queue) = adapter
             .request_device(&wgpu::DeviceDescriptor {
                 label: Some("example"),

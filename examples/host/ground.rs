@@ -114,15 +114,9 @@ impl Ground {
         let host_view = HostView::new(ellipsoid, eye, self.picture_px);
         gpu.queue
             .write_buffer(&self.host_view, 0, bytemuck::bytes_of(&host_view));
-        self.specialisation = host_view.specialisation();
         if let Shape::Globe(globe) = &mut self.shape {
             *globe = Globe::new(ellipsoid, eye);
         }
-    }
-
-    /// What [`Self::pipelines`] are made for.
-    pub fn specialisation(&self) -> Specialisation {
-        self.specialisation
     }
 
     /// Between which heights the ground lies.

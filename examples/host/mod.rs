@@ -16,7 +16,7 @@ pub mod targets;
 pub mod times;
 
 mod globe;
-pub mod host_view;
+mod host_view;
 mod picture;
 mod relief;
 mod terrain;
