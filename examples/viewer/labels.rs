@@ -65,12 +65,12 @@ fn write(painter: &Painter, at: Pos2, text: &str, font: &FontId, color: Color32)
 fn place(viewer: &Viewer, fact: &Fact) -> Option<(egui::Vec2, f64)> {
     let orbit = &viewer.orbit;
     let eye = orbit.eye(None);
-    let centroid = fact.centroid?;
-    let ground_m = Ellipsoid::WGS84.ecef(centroid, orbit.ground_m);
+    let label_at = fact.label_at?;
+    let ground_m = Ellipsoid::WGS84.ecef(label_at, orbit.ground_m);
     let relative_m = ground_m - eye.camera.eye_ecef_m;
     let slant = -relative_m
         .normalize()
-        .dot(Ellipsoid::WGS84.normal(centroid));
+        .dot(Ellipsoid::WGS84.normal(label_at));
     if slant < 0.25 {
         return None;
     }

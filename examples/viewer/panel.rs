@@ -26,7 +26,7 @@ pub fn show(viewer: &mut Viewer, ctx: &Context) {
         });
     egui::Window::new("Frame")
         .anchor(Align2::RIGHT_TOP, vec2(-12.0, 12.0))
-        .default_open(true)
+        .default_width(200.0)
         .resizable(false)
         .show(ctx, |ui| frame(viewer, ui));
     facts(viewer, ctx);
@@ -151,7 +151,7 @@ fn frame(viewer: &mut Viewer, ui: &mut Ui) {
         }
     });
     ui.add(Slider::new(&mut viewer.pixel_error, 0.05..=2.0).text("budget, px"));
-    ui.small(&viewer.adapter);
+    ui.add(egui::Label::new(RichText::new(&viewer.adapter).small()).truncate());
 }
 
 fn facts(viewer: &Viewer, ctx: &Context) {
@@ -176,7 +176,7 @@ fn facts(viewer: &Viewer, ctx: &Context) {
         "{}   {}   eye {} up",
         degrees(orbit.focus.lat_deg, "N", "S"),
         degrees(orbit.focus.lon_deg, "E", "W"),
-        length(orbit.distance_m),
+        length(orbit.viewpoint().height_m),
     );
     if let Some(fact) = viewer.picked.and_then(fact) {
         line = format!("{}   {}   |   {line}", fact.name, area(fact.area_m2));

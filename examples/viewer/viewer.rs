@@ -115,7 +115,13 @@ impl Viewer {
             self.loading.remove(index);
         }
         match layer {
-            Ok(layer) => self.layers.push(layer),
+            Ok(layer) => {
+                // In the order in which they lie, whichever is ready first.
+                let z_index = layer.look.z_index;
+                let index = self.layers.partition_point(|it| it.look.z_index <= z_index);
+                self.layers.insert(index, layer);
+                (self.hovered, self.picked) = (None, None);
+            }
             Err(error) => self.errors.push(error),
         }
     }

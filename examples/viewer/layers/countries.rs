@@ -10,7 +10,7 @@ const LOOK: Look = Look {
     opacity: 0.75,
     hatch: None,
     spacing_px: 12.0,
-    stroke_px: 0.0,
+    stroke_px: 1.0,
     z_index: 0,
 };
 

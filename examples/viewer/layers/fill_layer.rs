@@ -22,7 +22,8 @@ pub struct Look {
 pub struct Fact {
     pub name: String,
     pub area_m2: f64,
-    pub centroid: Option<LonLat>,
+    /// Where its name is written: in its largest part.
+    pub label_at: Option<LonLat>,
 }
 
 /// Fills with facts about them.
@@ -49,13 +50,14 @@ impl FillLayer {
     ) -> Result<Self, RegionError> {
         let (names, regions): (Vec<_>, Vec<_>) = named.into_iter().unzip();
         let mesh = FillMesh::build(&regions, &MeshOptions::default())?;
+        let measured = regions.iter().zip(mesh.all_measures());
         let facts = names
             .into_iter()
-            .zip(mesh.all_measures())
-            .map(|(name, measures)| Fact {
+            .zip(measured)
+            .map(|(name, (region, measures))| Fact {
                 name,
                 area_m2: measures.area_m2,
-                centroid: measures.centroid(),
+                label_at: middle_of_largest(region).or_else(|| measures.centroid()),
             })
             .collect();
         Ok(Self {
@@ -136,4 +138,33 @@ impl Look {
             ..Default::default()
         }
     }
+}
+
+/// The middle of the largest polygon: that of all of France lies in Spain. On a map of equal area,
+/// longitude and sine of latitude, which is near enough for a name.
+fn middle_of_largest(region: &Region) -> Option<LonLat> {
+    let middles = region.polygons.iter().filter_map(|polygon| {
+        let first = *polygon.shell.first()?;
+        let place = |at: &LonLat| {
+            let turns = ((at.lon_deg - first.lon_deg) / 360.0).round();
+            let lon_deg = at.lon_deg - 360.0 * turns;
+            (lon_deg - first.lon_deg, at.lat_deg.to_radians().sin())
+        };
+        let (mut area, mut x, mut y) = (0.0, 0.0, 0.0);
+        let next = polygon.shell.iter().cycle().skip(1);
+        for (from, to) in polygon.shell.iter().zip(next) {
+            let ((from_x, from_y), (to_x, to_y)) = (place(from), place(to));
+            let cross = from_x * to_y - to_x * from_y;
+            area += cross;
+            x += cross * (from_x + to_x);
+            y += cross * (from_y + to_y);
+        }
+        let sin_lat = (y / (3.0 * area)).clamp(-1.0, 1.0);
+        let lon_deg = first.lon_deg + x / (3.0 * area);
+        let middle = LonLat::new(lon_deg, sin_lat.asin().to_degrees());
+        (area != 0.0).then_some((area.abs(), middle))
+    });
+    middles
+        .max_by(|(a, _), (b, _)| a.total_cmp(b))
+        .map(|(_, middle)| middle)
 }
