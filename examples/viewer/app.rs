@@ -160,6 +160,7 @@ impl App {
         self.viewer.stats = graphics.draw(&mut self.viewer, Some(paint))?;
         screen.show(graphics);
         self.viewer.frame_ms = start.elapsed().as_secs_f64() * 1e3;
+        platform::log(|| self.viewer.summary());
         if self.viewer.loading.is_empty() {
             self.settled_frames += 1;
         }

@@ -237,4 +237,19 @@ impl Viewer {
             .sync(renderer.sensors_mut())
             .map_err(|error| error.to_string())
     }
+
+    /// The state on one line, for tests that drive the window.
+    pub fn summary(&self) -> String {
+        let fact = |hit: Hit| self.layers.get(hit.layer)?.facts.get(hit.fill as usize);
+        let picked = self.picked.and_then(fact).map_or("-", |fact| &fact.name);
+        format!(
+            "loading={} errors={} picked={picked} distance_m={:.1} sensors={} coverage={} upload={} .",
+            self.loading.len(),
+            self.errors.len(),
+            self.orbit.distance_m,
+            self.stats.sensors,
+            self.satellites.settings.coverage,
+            self.stats.upload_bytes,
+        )
+    }
 }

@@ -46,7 +46,7 @@ impl Default for Satellites {
                 count: 60,
                 height_km: 780.0,
                 inclination_deg: 86.0,
-                half_angle_deg: 35.0,
+                half_angle_deg: 50.0,
                 rectangular: false,
                 from_apex: false,
                 coverage: false,
