@@ -6,7 +6,7 @@
 //! ```
 //!
 //! Drag turns the globe; the wheel zooms to the pointer; right or ctrl drag tilts; arrows or WASD move,
-//! + and − zoom, N or R turns north up, Home goes home, space plays. `viewer.rs` is the state, without
+//! plus and minus zoom, N or R turns north up, Home goes home, space plays. `viewer.rs` is the state, without
 //! window or GPU; `graphics.rs` draws it; `app.rs` is the window.
 
 mod app;
