@@ -114,9 +114,29 @@ impl Ground {
         let host_view = HostView::new(ellipsoid, eye, self.picture_px);
         gpu.queue
             .write_buffer(&self.host_view, 0, bytemuck::bytes_of(&host_view));
+        self.specialisation = host_view.specialisation();
         if let Shape::Globe(globe) = &mut self.shape {
             *globe = Globe::new(ellipsoid, eye);
         }
+    }
+
+    /// The same terrain seen by another camera.
+    pub fn look_over(
+        &mut self,
+        gpu: &Gpu,
+        ellipsoid: &Ellipsoid,
+        elevation: &Elevation,
+        eye: &Eye,
+    ) {
+        self.look(gpu, ellipsoid, eye);
+        if let Shape::Terrain(terrain) = &mut self.shape {
+            terrain.look(gpu, ellipsoid, elevation, eye);
+        }
+    }
+
+    /// Which pipelines fit: they are specialised for how near the ground is.
+    pub fn specialisation(&self) -> Specialisation {
+        self.specialisation
     }
 
     /// Between which heights the ground lies.

@@ -28,7 +28,7 @@ pub struct HostView {
 }
 
 /// What the shaders are specialised for.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Specialisation {
     /// The world picture's texels are larger than the pixels.
     pub magnified: bool,

@@ -30,48 +30,26 @@ pub struct Terrain {
 
 impl Terrain {
     pub fn new(gpu: &Gpu, ellipsoid: &Ellipsoid, elevation: &Elevation, eye: &Eye) -> Self {
-        let mesh = TerrainMesh::new(ellipsoid, elevation, eye);
-        let mut all_indices: Vec<u16> = Vec::new();
-        let ranges: Vec<Range<u32>> = (0..16)
-            .map(|coarser_sides| {
-                let start = all_indices.len() as u32;
-                all_indices.extend(indices(coarser_sides));
-                start..all_indices.len() as u32
-            })
-            .collect();
-        let mut vertices: Vec<TerrainVertex> = Vec::new();
-        let mut draws = Vec::new();
-        for tile in &mesh.tiles {
-            let first = vertices.len() as i32;
-            draws.push((first, ranges[tile.coarser_sides as usize].clone()));
-            vertices.extend(&tile.vertices);
-        }
-        let buffer = |label, contents: &[u8], usage| {
-            gpu.device
-                .create_buffer_init(&wgpu::util::BufferInitDescriptor {
-                    label: Some(label),
-                    contents,
-                    usage,
-                })
-        };
+        let seen = Seen::new(gpu, ellipsoid, elevation, eye);
         let (layout, group) = relief_group(gpu, ellipsoid, elevation);
         Self {
-            heights: mesh.heights,
+            heights: seen.heights,
             has_ground_beyond_grid: !elevation.is_whole_globe(),
             layout,
             group,
-            vertices: buffer(
-                "terrain vertices",
-                bytemuck::cast_slice(&vertices),
-                wgpu::BufferUsages::VERTEX,
-            ),
-            indices: buffer(
-                "terrain indices",
-                bytemuck::cast_slice(&all_indices),
-                wgpu::BufferUsages::INDEX,
-            ),
-            draws,
+            vertices: seen.vertices,
+            indices: seen.indices,
+            draws: seen.draws,
         }
+    }
+
+    /// The same terrain as another camera sees it.
+    pub fn look(&mut self, gpu: &Gpu, ellipsoid: &Ellipsoid, elevation: &Elevation, eye: &Eye) {
+        let seen = Seen::new(gpu, ellipsoid, elevation, eye);
+        self.heights = seen.heights;
+        self.vertices = seen.vertices;
+        self.indices = seen.indices;
+        self.draws = seen.draws;
     }
 
     pub fn pipeline(
@@ -115,6 +93,57 @@ impl Terrain {
         pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint16);
         for (first_vertex, triangles) in &self.draws {
             pass.draw_indexed(triangles.clone(), *first_vertex, 0..1);
+        }
+    }
+}
+
+/// What changes with the camera.
+struct Seen {
+    heights: HeightRange,
+    vertices: wgpu::Buffer,
+    indices: wgpu::Buffer,
+    draws: Vec<(i32, Range<u32>)>,
+}
+
+impl Seen {
+    fn new(gpu: &Gpu, ellipsoid: &Ellipsoid, elevation: &Elevation, eye: &Eye) -> Self {
+        let mesh = TerrainMesh::new(ellipsoid, elevation, eye);
+        let mut all_indices: Vec<u16> = Vec::new();
+        let ranges: Vec<Range<u32>> = (0..16)
+            .map(|coarser_sides| {
+                let start = all_indices.len() as u32;
+                all_indices.extend(indices(coarser_sides));
+                start..all_indices.len() as u32
+            })
+            .collect();
+        let mut vertices: Vec<TerrainVertex> = Vec::new();
+        let mut draws = Vec::new();
+        for tile in &mesh.tiles {
+            let first = vertices.len() as i32;
+            draws.push((first, ranges[tile.coarser_sides as usize].clone()));
+            vertices.extend(&tile.vertices);
+        }
+        let buffer = |label, contents: &[u8], usage| {
+            gpu.device
+                .create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                    label: Some(label),
+                    contents,
+                    usage,
+                })
+        };
+        Self {
+            heights: mesh.heights,
+            vertices: buffer(
+                "terrain vertices",
+                bytemuck::cast_slice(&vertices),
+                wgpu::BufferUsages::VERTEX,
+            ),
+            indices: buffer(
+                "terrain indices",
+                bytemuck::cast_slice(&all_indices),
+                wgpu::BufferUsages::INDEX,
+            ),
+            draws,
         }
     }
 }

@@ -1,0 +1,436 @@
+//! The window: events in, frames out. It draws only when something changed or moves.
+
+use std::sync::Arc;
+
+use glam::{DVec2, UVec2};
+use globefill::{Renderer, wgpu};
+use web_time::Instant;
+use winit::{
+    application::ApplicationHandler,
+    dpi::PhysicalSize,
+    event::{ElementState, MouseButton, MouseScrollDelta, WindowEvent},
+    event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy},
+    keyboard::{Key as WinitKey, NamedKey},
+    window::{Window, WindowId},
+};
+
+use crate::{
+    flags::Flags,
+    graphics::{Graphics, Paint},
+    host::gpu::Gpu,
+    layers::{countries, files, fill_layer::FillLayer, zones},
+    panel, platform,
+    viewer::{Button, Key, Viewer, Wish},
+};
+
+/// A touch pad's pixels for one step of a wheel.
+const PX_PER_STEP: f64 = 60.0;
+/// After a pause time goes on from here, not in one leap.
+const LONGEST_STEP_S: f64 = 0.1;
+/// Frames drawn before a screenshot: egui sizes its windows in the first.
+const SETTLING_FRAMES: u32 = 4;
+
+/// What other threads and futures send.
+enum Message {
+    Opened(Box<Result<(Graphics, Screen), String>>),
+    Loaded(String, Box<Result<FillLayer, String>>),
+    Loading(String),
+}
+
+/// The window's surface.
+struct Screen {
+    surface: wgpu::Surface<'static>,
+    config: wgpu::SurfaceConfiguration,
+}
+
+struct App {
+    flags: Flags,
+    proxy: EventLoopProxy<Message>,
+    viewer: Viewer,
+    window: Option<Arc<Window>>,
+    drawn_with: Option<(Graphics, Screen)>,
+    egui: egui::Context,
+    egui_winit: Option<egui_winit::State>,
+    start: Instant,
+    last_s: f64,
+    ctrl: bool,
+    settled_frames: u32,
+    failure: Option<String>,
+}
+
+pub fn run(flags: Flags) -> Result<(), String> {
+    let named = |error: winit::error::EventLoopError| format!("no window: {error}");
+    let events = EventLoop::<Message>::with_user_event()
+        .build()
+        .map_err(named)?;
+    events.set_control_flow(ControlFlow::Wait);
+    let size_px = flags.size_px.unwrap_or(UVec2::new(1280, 720));
+    let mut viewer = Viewer::new(size_px);
+    if let Some(camera) = &flags.camera {
+        viewer.orbit.stand_at(camera);
+    }
+    viewer.satellites.settings.visible = flags.satellites;
+    viewer.satellites.settings.coverage = flags.coverage;
+    viewer.satellites.playing = flags.screenshot.is_none();
+    viewer.terrain = flags.terrain;
+    let egui = egui::Context::default();
+    egui.set_theme(egui::Theme::Dark);
+    let mut app = App {
+        flags,
+        proxy: events.create_proxy(),
+        viewer,
+        window: None,
+        drawn_with: None,
+        egui,
+        egui_winit: None,
+        start: Instant::now(),
+        last_s: 0.0,
+        ctrl: false,
+        settled_frames: 0,
+        failure: None,
+    };
+    events.run_app(&mut app).map_err(named)?;
+    app.failure.map_or(Ok(()), Err)
+}
+
+impl App {
+    fn now_s(&self) -> f64 {
+        self.start.elapsed().as_secs_f64()
+    }
+
+    fn redraw(&self) {
+        if let Some(window) = &self.window {
+            window.request_redraw();
+        }
+    }
+
+    /// Loads a layer beside the thread that draws.
+    fn load(
+        &mut self,
+        name: &str,
+        build: impl FnOnce() -> Result<FillLayer, String> + Send + 'static,
+    ) {
+        self.viewer.loading.push(name.to_owned());
+        let (proxy, name) = (self.proxy.clone(), name.to_owned());
+        platform::spawn(move || {
+            // The window may be closed by now.
+            let _ = proxy.send_event(Message::Loaded(name, Box::new(build())));
+        });
+    }
+
+    /// What to do with the text of a file.
+    fn reader(&self) -> impl FnOnce(String, Result<String, String>) + Send + 'static {
+        let proxy = self.proxy.clone();
+        move |name, text| {
+            let _ = proxy.send_event(Message::Loading(name.clone()));
+            let layer = text.and_then(|text| files::build(&name, &text));
+            let _ = proxy.send_event(Message::Loaded(name, Box::new(layer)));
+        }
+    }
+
+    fn grant_wishes(&mut self) {
+        for wish in std::mem::take(&mut self.viewer.wishes) {
+            match wish {
+                Wish::OpenFile => platform::ask_file(self.reader()),
+                Wish::Screenshot => match self.save("globefill.png") {
+                    Ok(notice) => self.viewer.notice = Some(notice),
+                    Err(error) => self.viewer.errors.push(error),
+                },
+            }
+        }
+    }
+
+    fn save(&self, file: &str) -> Result<String, String> {
+        let (graphics, _) = self.drawn_with.as_ref().ok_or("nothing is drawn yet")?;
+        platform::save(file, &graphics.png()?)
+    }
+
+    fn draw(&mut self, events: &ActiveEventLoop) -> Result<(), String> {
+        let now_s = self.now_s();
+        let step_s = (now_s - self.last_s).min(LONGEST_STEP_S);
+        self.last_s = now_s;
+        let moves = self.viewer.advance(step_s);
+        let paint = self.run_egui();
+        self.grant_wishes();
+        let Some(((graphics, screen), paint)) = self.drawn_with.as_mut().zip(paint) else {
+            return Ok(());
+        };
+        let (paint, wants_repaint) = paint;
+        let start = Instant::now();
+        self.viewer.stats = graphics.draw(&mut self.viewer, Some(paint))?;
+        screen.show(graphics);
+        self.viewer.frame_ms = start.elapsed().as_secs_f64() * 1e3;
+        platform::log(|| self.viewer.summary());
+        if self.viewer.loading.is_empty() {
+            self.settled_frames += 1;
+        }
+        if let Some(file) = &self.flags.screenshot {
+            if self.settled_frames >= SETTLING_FRAMES {
+                println!("{}\n{:?}", self.save(file)?, self.viewer.stats);
+                events.exit();
+            }
+            self.redraw();
+        }
+        if moves || wants_repaint {
+            self.redraw();
+        }
+        Ok(())
+    }
+
+    /// What egui wants drawn, and whether it wants to be asked again.
+    fn run_egui(&mut self) -> Option<(Paint, bool)> {
+        let (window, state) = (self.window.as_ref()?, self.egui_winit.as_mut()?);
+        let input = state.take_egui_input(window);
+        let viewer = &mut self.viewer;
+        let output = self.egui.run_ui(input, |ui| panel::show(viewer, ui.ctx()));
+        state.handle_platform_output(window, output.platform_output);
+        let soon = output
+            .viewport_output
+            .values()
+            .any(|it| it.repaint_delay.as_millis() < 50);
+        let paint = Paint {
+            jobs: self.egui.tessellate(output.shapes, output.pixels_per_point),
+            textures: output.textures_delta,
+            pixels_per_point: output.pixels_per_point,
+        };
+        Some((paint, soon))
+    }
+
+    fn fail(&mut self, events: &ActiveEventLoop, error: String) {
+        self.failure = Some(error);
+        events.exit();
+    }
+
+    fn input(&mut self, event: &WindowEvent) {
+        let now_s = self.now_s();
+        let viewer = &mut self.viewer;
+        match event {
+            WindowEvent::CursorMoved { position, .. } => {
+                viewer.point(DVec2::new(position.x, position.y), now_s);
+            }
+            WindowEvent::CursorLeft { .. } => viewer.leave(),
+            WindowEvent::MouseInput {
+                state: ElementState::Pressed,
+                button,
+                ..
+            } => {
+                let tilts = self.ctrl || *button != MouseButton::Left;
+                let button = if tilts { Button::Tilt } else { Button::Grab };
+                if let Some(px) = viewer.pointer_px {
+                    viewer.press(button, px, now_s);
+                }
+            }
+            WindowEvent::MouseWheel { delta, .. } => viewer.scroll(match delta {
+                MouseScrollDelta::LineDelta(_, lines) => f64::from(*lines),
+                MouseScrollDelta::PixelDelta(px) => px.y / PX_PER_STEP,
+            }),
+            // A pinch to twice the size halves the distance.
+            WindowEvent::PinchGesture { delta, .. } => viewer.scroll(4.0 * delta),
+            WindowEvent::RotationGesture { delta, .. } => viewer.orbit.turn(f64::from(*delta), 0.0),
+            WindowEvent::KeyboardInput { event, .. } if event.state.is_pressed() => {
+                if let Some(key) = key(&event.logical_key) {
+                    viewer.key(key);
+                }
+            }
+            _ => {}
+        }
+    }
+}
+
+impl ApplicationHandler<Message> for App {
+    fn resumed(&mut self, events: &ActiveEventLoop) {
+        if self.window.is_some() {
+            return;
+        }
+        let size_px = self.viewer.orbit.size_px;
+        let attributes = Window::default_attributes()
+            .with_title("globefill")
+            .with_inner_size(PhysicalSize::new(size_px.x, size_px.y));
+        let window = match events.create_window(attributes) {
+            Ok(window) => Arc::new(window),
+            Err(error) => return self.fail(events, format!("no window: {error}")),
+        };
+        self.egui_winit = Some(egui_winit::State::new(
+            self.egui.clone(),
+            egui::ViewportId::ROOT,
+            &window,
+            Some(window.scale_factor() as f32),
+            None,
+            None,
+        ));
+        self.window = Some(window.clone());
+        let proxy = self.proxy.clone();
+        platform::run(async move {
+            let opened = open(window, size_px).await;
+            let _ = proxy.send_event(Message::Opened(Box::new(opened)));
+        });
+        self.load("countries", countries::build);
+        self.load("zones", zones::build);
+        for file in self.flags.files.clone() {
+            self.viewer.loading.push(platform::name(file.as_ref()));
+            platform::read_file(file.into(), self.reader());
+        }
+    }
+
+    fn user_event(&mut self, events: &ActiveEventLoop, message: Message) {
+        match message {
+            Message::Opened(opened) => match *opened {
+                Ok((graphics, screen)) => {
+                    self.viewer.adapter = graphics.gpu.name.clone();
+                    self.viewer.has_terrain = graphics.has_terrain();
+                    self.drawn_with = Some((graphics, screen));
+                }
+                Err(error) => self.fail(events, error),
+            },
+            Message::Loaded(name, layer) => self.viewer.loaded(&name, *layer),
+            Message::Loading(name) => {
+                if !self.viewer.loading.contains(&name) {
+                    self.viewer.loading.push(name);
+                }
+            }
+        }
+        self.redraw();
+    }
+
+    fn window_event(&mut self, events: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
+        let (Some(window), Some(state)) = (self.window.clone(), self.egui_winit.as_mut()) else {
+            return;
+        };
+        let response = state.on_window_event(&window, &event);
+        if response.repaint && !matches!(event, WindowEvent::RedrawRequested) {
+            window.request_redraw();
+        }
+        match &event {
+            WindowEvent::CloseRequested => return events.exit(),
+            WindowEvent::Resized(size) if size.width > 0 && size.height > 0 => {
+                self.viewer.orbit.size_px = UVec2::new(size.width, size.height);
+                if let Some((graphics, screen)) = &mut self.drawn_with {
+                    screen.resize(&graphics.gpu, self.viewer.orbit.size_px);
+                }
+                window.request_redraw();
+            }
+            WindowEvent::ModifiersChanged(modifiers) => self.ctrl = modifiers.state().control_key(),
+            WindowEvent::HoveredFile(_) => self.viewer.dropping = true,
+            WindowEvent::HoveredFileCancelled => self.viewer.dropping = false,
+            WindowEvent::DroppedFile(path) => {
+                self.viewer.dropping = false;
+                platform::read_file(path.clone(), self.reader());
+            }
+            // Wherever the button comes up, the drag ends.
+            WindowEvent::MouseInput {
+                state: ElementState::Released,
+                ..
+            } => {
+                let now_s = self.now_s();
+                self.viewer.release(now_s);
+            }
+            WindowEvent::RedrawRequested => {
+                if let Err(error) = self.draw(events) {
+                    self.fail(events, error);
+                }
+                return;
+            }
+            _ => {}
+        }
+        if !response.consumed {
+            let rested = !self.viewer.orbit.is_moving() && !self.viewer.satellites.playing;
+            if rested {
+                self.last_s = self.now_s();
+            }
+            self.input(&event);
+        } else if matches!(event, WindowEvent::CursorMoved { .. }) {
+            self.viewer.leave();
+        }
+    }
+}
+
+impl Screen {
+    fn resize(&mut self, gpu: &Gpu, size_px: UVec2) {
+        (self.config.width, self.config.height) = (size_px.x, size_px.y);
+        self.surface.configure(&gpu.device, &self.config);
+    }
+
+    /// Copies the canvas to the window.
+    fn show(&mut self, graphics: &Graphics) {
+        let gpu = &graphics.gpu;
+        let texture = match self.surface.get_current_texture() {
+            wgpu::CurrentSurfaceTexture::Success(texture)
+            | wgpu::CurrentSurfaceTexture::Suboptimal(texture) => texture,
+            wgpu::CurrentSurfaceTexture::Outdated | wgpu::CurrentSurfaceTexture::Lost => {
+                return self.surface.configure(&gpu.device, &self.config);
+            }
+            _ => return,
+        };
+        if texture.texture.size() == graphics.canvas.color.size() {
+            let mut encoder = gpu.device.create_command_encoder(&Default::default());
+            encoder.copy_texture_to_texture(
+                graphics.canvas.color.as_image_copy(),
+                texture.texture.as_image_copy(),
+                graphics.canvas.color.size(),
+            );
+            gpu.queue.submit([encoder.finish()]);
+        }
+        gpu.queue.present(texture);
+    }
+}
+
+async fn open(window: Arc<Window>, size_px: UVec2) -> Result<(Graphics, Screen), String> {
+    let instance =
+        wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
+    let surface = instance
+        .create_surface(window)
+        .map_err(|error| format!("the window cannot be drawn to: {error}"))?;
+    let adapter = instance
+        .request_adapter(&wgpu::RequestAdapterOptions {
+            power_preference: wgpu::PowerPreference::HighPerformance,
+            compatible_surface: Some(&surface),
+            ..Default::default()
+        })
+        .await
+        .map_err(|error| format!("no graphics adapter found: {error}"))?;
+    let (device, queue) = adapter
+        .request_device(&wgpu::DeviceDescriptor {
+            required_features: Renderer::wanted_features() & adapter.features(),
+            required_limits: adapter.limits(),
+            ..Default::default()
+        })
+        .await
+        .map_err(|error| format!("the graphics adapter gave no device: {error}"))?;
+    let mut config = surface
+        .get_default_config(&adapter, size_px.x, size_px.y)
+        .ok_or("the adapter does not draw to this window")?;
+    config.usage |= wgpu::TextureUsages::COPY_DST;
+    let formats = surface.get_capabilities(&adapter).formats;
+    let eight_bit = |format: &wgpu::TextureFormat| {
+        use wgpu::TextureFormat::{Bgra8Unorm, Rgba8Unorm};
+        matches!(format.remove_srgb_suffix(), Bgra8Unorm | Rgba8Unorm)
+    };
+    config.format = formats
+        .into_iter()
+        .find(eight_bit)
+        .ok_or("the window has no colours of eight bits")?;
+    surface.configure(&device, &config);
+    let info = adapter.get_info();
+    let gpu = Gpu {
+        device,
+        queue,
+        name: format!("{} ({:?})", info.name, info.backend),
+    };
+    let graphics = Graphics::new(gpu, config.format, size_px, platform::elevation())?;
+    Ok((graphics, Screen { surface, config }))
+}
+
+fn key(key: &WinitKey) -> Option<Key> {
+    Some(match key.as_ref() {
+        WinitKey::Named(NamedKey::ArrowLeft) | WinitKey::Character("a") => Key::Left,
+        WinitKey::Named(NamedKey::ArrowRight) | WinitKey::Character("d") => Key::Right,
+        WinitKey::Named(NamedKey::ArrowUp) | WinitKey::Character("w") => Key::Up,
+        WinitKey::Named(NamedKey::ArrowDown) | WinitKey::Character("s") => Key::Down,
+        WinitKey::Character("+" | "=") => Key::Nearer,
+        WinitKey::Character("-") => Key::Farther,
+        WinitKey::Character("n" | "r") => Key::NorthUp,
+        WinitKey::Named(NamedKey::Home) => Key::Home,
+        WinitKey::Named(NamedKey::Space) => Key::Play,
+        _ => return None,
+    })
+}
