@@ -2,7 +2,7 @@
 
 use globefill::{
     Blend, CountTechnique, Ellipsoid, FillStyle, LonLat, Pattern, Region, RendererError, Stroke,
-    StyleError, Zone,
+    StyleError, Zone, wgpu,
 };
 
 use crate::{
@@ -10,7 +10,7 @@ use crate::{
     colors::assert_near,
     common::{
         draw::frame_of,
-        headless::gpu,
+        headless::{gpu, gpu_without},
         surface::{Cast, DepthKind, Surface, Terrain},
         zone_oracle::ZoneOracle,
     },
@@ -24,6 +24,9 @@ const BAND_PX: f64 = 2.0;
 /// Half a level of rounding for each blend, and what weights in integers add where so many fit in a scene: half
 /// a level at the very most for each fill, far less where few overlap.
 const MOST_LEVELS: f64 = 1.5;
+
+/// Weights of 8 bits: 64 units per optical depth here.
+const MOST_HALF_LEVELS: f64 = 4.0;
 
 /// The k-th of numbers that fill 0 … 1 evenly.
 fn part(k: usize, step: f64) -> f64 {
@@ -67,7 +70,13 @@ fn filtered(styles: &[FillStyle], below: [f64; 4]) -> [f64; 4] {
 }
 
 /// Draws circles over one ordered fill, and compares every pixel away from their boundaries.
-fn compare(stage: &mut Stage<'_>, surface: &Surface, zones: &[(Zone, FillStyle)], what: &str) {
+fn compare(
+    stage: &mut Stage<'_>,
+    surface: &Surface,
+    zones: &[(Zone, FillStyle)],
+    levels: f64,
+    what: &str,
+) {
     let oracles: Vec<ZoneOracle> = zones
         .iter()
         .map(|(zone, _)| ZoneOracle::new(zone, Ellipsoid::WGS84))
@@ -98,7 +107,7 @@ fn compare(stage: &mut Stage<'_>, surface: &Surface, zones: &[(Zone, FillStyle)]
         let inside = zones.iter().zip(&outside_m).filter(|(_, m)| **m < 0.0);
         let styles: Vec<FillStyle> = inside.map(|((_, style), _)| *style).collect();
         let wanted = filtered(&styles, [0.05, 0.1, 0.3, 0.5]);
-        worst = worst.max(assert_near(texel, wanted, MOST_LEVELS, what));
+        worst = worst.max(assert_near(texel, wanted, levels, what));
         compared += 1;
         deepest = deepest.max(styles.len());
     }
@@ -123,7 +132,7 @@ fn unordered_fills_mix_like_filters() {
             for count in BOTH {
                 let mut stage = Stage::counted(gpu, mesh_of(at, &zones), &surface, count);
                 let what = format!("{at:?} from {height_m} m by {count:?}");
-                compare(&mut stage, &surface, &zones, &what);
+                compare(&mut stage, &surface, &zones, MOST_LEVELS, &what);
             }
         }
     }
@@ -141,9 +150,28 @@ fn over_mountains_and_with_four_samples_too() {
         for count in BOTH {
             let mut stage = Stage::counted(gpu, mesh_of(at, &zones), &surface, count);
             let what = format!("{terrain:?}, {samples} samples, by {count:?}");
-            compare(&mut stage, &surface, &zones, &what);
+            compare(&mut stage, &surface, &zones, MOST_LEVELS, &what);
         }
     }
+}
+
+/// Where 32-bit floats do not blend the stencil counts, and half floats add weights of 8 bits.
+#[test]
+fn half_floats_mix_more_coarsely() {
+    let Some(poorer) = gpu_without(wgpu::Features::FLOAT32_BLENDABLE) else {
+        return;
+    };
+    let surface = bare(&pose(PLACES[0], 1e6, 0.3), SMALL);
+    let zones = circles(PLACES[0], 24, pixel_m(&surface) * f64::from(SMALL.x));
+    let mesh = mesh_of(PLACES[0], &zones);
+    let mut stage = Stage::counted(&poorer, mesh, &surface, CountTechnique::Stencil);
+    compare(
+        &mut stage,
+        &surface,
+        &zones,
+        MOST_HALF_LEVELS,
+        "half floats",
+    );
 }
 
 /// What chains of ordered fills would need hundreds of layers for.
