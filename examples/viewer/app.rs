@@ -185,6 +185,10 @@ impl App {
     }
 
     fn draw(&mut self) -> Result<(), String> {
+        // egui tells of its textures once: not before they can be made.
+        if self.drawn_with.is_none() {
+            return Ok(());
+        }
         let now_s = self.now_s();
         let step_s = (now_s - self.last_s).min(LONGEST_STEP_S);
         self.last_s = now_s;
