@@ -23,7 +23,7 @@ use winit::{
 
 use crate::{
     graphics::Graphics,
-    host::elevation::{Elevation, Placement},
+    host::elevation::{Elevation, Grid, Placement},
 };
 
 /// The page's canvas.
@@ -172,8 +172,8 @@ pub fn elevation(then: impl FnOnce(Result<Elevation, String>) + 'static) {
     spawn_local(async move {
         let read = async {
             let placement = fetch("terrain-world.json").await?;
-            let placement = Placement::parse(&String::from_utf8_lossy(&placement))?;
-            Elevation::decode(&fetch("terrain-world.png").await?, &placement)
+            let grid = Grid::decode(&fetch("terrain-world.png").await?)?;
+            Elevation::new(grid, &Placement::parse(&placement)?)
         };
         then(read.await);
     });
