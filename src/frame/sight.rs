@@ -1,6 +1,6 @@
 //! What a frame's camera sees, in f64: everything the selection needs, derived once a frame.
 
-use glam::{DMat4, DVec3, DVec4, Vec4Swizzles as _};
+use glam::{DMat3, DMat4, DVec3, DVec4, Vec4Swizzles as _};
 
 use crate::{
     ellipsoid::Ellipsoid,
@@ -241,12 +241,28 @@ impl Sight {
 
     /// What may be seen of any surface.
     pub(crate) fn globe_window(&self) -> Window {
-        let radius_m = self.ellipsoid.a_m.max(self.ellipsoid.b_m) + self.surface_m.1.max(0.0);
-        Window::of_sphere(
-            &self.clip_from_relative,
-            -self.eye_ecef_m,
-            radius_m + SLACK_M,
-        )
+        let height_m = self.surface_m.1.max(0.0) + SLACK_M;
+        let radius_m = self.ellipsoid.a_m.max(self.ellipsoid.b_m) + height_m;
+        let window = Window::of_sphere(&self.clip_from_relative, -self.eye_ecef_m, radius_m);
+        // In coordinates divided by the radii all surface is within a sphere, which an eye above it sees in a
+        // cone, wherever it looks.
+        let radii_m = self.ellipsoid.radii_m();
+        let eye = self.eye_ecef_m / radii_m;
+        let highest = 1.0 + height_m / radii_m.min_element();
+        let sine = highest / eye.length();
+        if self.parallel || sine >= 1.0 {
+            return window;
+        }
+        let from_ndc = DMat3::from_diagonal(radii_m.recip()) * self.rays_from_ndc();
+        let below = Window::of_cone(&from_ndc, -eye.normalize(), (1.0 - sine * sine).sqrt());
+        window.common(below)
+    }
+
+    /// From points x, y, 1 of a perspective's picture to lines of sight, of which the view axis has length one.
+    pub(crate) fn rays_from_ndc(&self) -> DMat3 {
+        let rows = self.clip_from_relative.transpose();
+        let rows = [rows.x_axis, rows.y_axis, rows.w_axis].map(|row| row.xyz().to_array());
+        DMat3::from_cols_array_2d(&rows).transpose().inverse()
     }
 
     /// Lower bound, metres, of the distance from the eye to visible surface in `bounds`.
