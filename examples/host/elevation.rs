@@ -23,21 +23,31 @@ pub struct Elevation {
 impl Elevation {
     /// Reads a 16-bit grey PNG and the JSON of the same stem.
     pub fn read(path: &Path) -> Result<Self, String> {
-        let named = |error: String| format!("{}: {error}", path.display());
-        let image = image::open(path)
-            .map_err(|error| named(format!("cannot read the terrain: {error}")))?;
+        let named = |path: &Path, error: String| format!("{}: {error}", path.display());
+        let picture = std::fs::read(path)
+            .map_err(|error| named(path, format!("cannot read the terrain: {error}")))?;
+        let json = path.with_extension("json");
+        let placement = std::fs::read_to_string(&json).map_err(|error| {
+            named(
+                &json,
+                format!("cannot read the terrain's placement: {error}"),
+            )
+        })?;
+        let place = Placement::parse(&placement).map_err(|error| named(&json, error))?;
+        Self::decode(&picture, &place).map_err(|error| named(path, error))
+    }
+
+    /// Decodes a 16-bit grey PNG.
+    pub fn decode(png: &[u8], place: &Placement) -> Result<Self, String> {
+        let image = image::load_from_memory_with_format(png, image::ImageFormat::Png)
+            .map_err(|error| format!("cannot read the terrain: {error}"))?;
         let image::DynamicImage::ImageLuma16(image) = image else {
-            return Err(named(
-                "terrain must be a grey PNG of 16 bits a pixel".into(),
-            ));
+            return Err("terrain must be a grey PNG of 16 bits a pixel".into());
         };
         let size = UVec2::new(image.width(), image.height());
         if size.min_element() < 2 {
-            return Err(named(
-                "terrain needs at least two rows and two columns".into(),
-            ));
+            return Err("terrain needs at least two rows and two columns".into());
         }
-        let place = Placement::read(&path.with_extension("json"))?;
         let heights_m: Vec<f32> = image
             .into_raw()
             .into_iter()
@@ -49,10 +59,10 @@ impl Elevation {
                 (low.min(height), high.max(height))
             });
         if f64::from(extremes.0) < -GREATEST_HEIGHT_M || f64::from(extremes.1) > GREATEST_HEIGHT_M {
-            return Err(named(format!(
+            return Err(format!(
                 "heights from {} to {} m: scale or offset is wrong",
                 extremes.0, extremes.1
-            )));
+            ));
         }
         let [west_deg, south_deg, east_deg, north_deg] = place.bounds_deg;
         Ok(Self {
@@ -147,7 +157,7 @@ impl Elevation {
 }
 
 /// What the JSON says.
-struct Placement {
+pub struct Placement {
     /// West, south, east, north.
     bounds_deg: [f64; 4],
     scale: f64,
@@ -155,15 +165,12 @@ struct Placement {
 }
 
 impl Placement {
-    fn read(path: &Path) -> Result<Self, String> {
-        let named = |error: String| format!("{}: {error}", path.display());
-        let text = std::fs::read_to_string(path)
-            .map_err(|error| named(format!("cannot read the terrain's placement: {error}")))?;
-        let json: Value = serde_json::from_str(&text).map_err(|error| named(error.to_string()))?;
+    pub fn parse(text: &str) -> Result<Self, String> {
+        let json: Value = serde_json::from_str(text).map_err(|error| error.to_string())?;
         let number = |name: &str| {
             json.get(name)
                 .and_then(Value::as_f64)
-                .ok_or_else(|| named(format!("{name:?} must be a number")))
+                .ok_or_else(|| format!("{name:?} must be a number"))
         };
         let bounds_deg = [
             number("west")?,
@@ -173,14 +180,14 @@ impl Placement {
         ];
         let [west, south, east, north] = bounds_deg;
         if !(west < east && east - west <= 360.0) {
-            return Err(named(format!(
+            return Err(format!(
                 "west {west} must lie less than a turn before east {east}"
-            )));
+            ));
         }
         if !(-90.0 <= south && south < north && north <= 90.0) {
-            return Err(named(format!(
+            return Err(format!(
                 "south {south} must lie below north {north}, within ±90"
-            )));
+            ));
         }
         let (scale, offset) = (number("scale")?, number("offset")?);
         Ok(Self {

@@ -7,7 +7,6 @@ use globefill::{Renderer, wgpu};
 use web_time::Instant;
 use winit::{
     application::ApplicationHandler,
-    dpi::PhysicalSize,
     event::{ElementState, MouseButton, MouseScrollDelta, WindowEvent},
     event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy},
     keyboard::{Key as WinitKey, NamedKey},
@@ -17,7 +16,7 @@ use winit::{
 use crate::{
     flags::Flags,
     graphics::{Graphics, Paint},
-    host::gpu::Gpu,
+    host::{elevation::Elevation, gpu::Gpu},
     layers::{countries, files, fill_layer::FillLayer, zones},
     panel, platform,
     viewer::{Button, Key, Viewer, Wish},
@@ -30,11 +29,17 @@ const LONGEST_STEP_S: f64 = 0.1;
 /// Frames drawn before a screenshot: egui sizes its windows in the first.
 const SETTLING_FRAMES: u32 = 4;
 
+/// The terrain among what is being loaded.
+const TERRAIN: &str = "terrain";
+
 /// What other threads and futures send.
 enum Message {
     Opened(Box<Result<(Graphics, Screen), String>>),
     Loaded(String, Box<Result<FillLayer, String>>),
     Loading(String),
+    Terrain(Box<Result<Elevation, String>>),
+    Picture(Result<Vec<u8>, String>),
+    Hovers(bool),
 }
 
 /// The window's surface.
@@ -55,14 +60,12 @@ struct App {
     last_s: f64,
     ctrl: bool,
     settled_frames: u32,
-    failure: Option<String>,
 }
 
 pub fn run(flags: Flags) -> Result<(), String> {
-    let named = |error: winit::error::EventLoopError| format!("no window: {error}");
     let events = EventLoop::<Message>::with_user_event()
         .build()
-        .map_err(named)?;
+        .map_err(|error| format!("no window: {error}"))?;
     events.set_control_flow(ControlFlow::Wait);
     let size_px = flags.size_px.unwrap_or(UVec2::new(1280, 720));
     let mut viewer = Viewer::new(size_px);
@@ -75,7 +78,7 @@ pub fn run(flags: Flags) -> Result<(), String> {
     viewer.terrain = flags.terrain;
     let egui = egui::Context::default();
     egui.set_theme(egui::Theme::Dark);
-    let mut app = App {
+    let app = App {
         flags,
         proxy: events.create_proxy(),
         viewer,
@@ -87,10 +90,8 @@ pub fn run(flags: Flags) -> Result<(), String> {
         last_s: 0.0,
         ctrl: false,
         settled_frames: 0,
-        failure: None,
     };
-    events.run_app(&mut app).map_err(named)?;
-    app.failure.map_or(Ok(()), Err)
+    platform::run_app(events, app)
 }
 
 impl App {
@@ -108,7 +109,7 @@ impl App {
     fn load(
         &mut self,
         name: &str,
-        build: impl FnOnce() -> Result<FillLayer, String> + Send + 'static,
+        build: impl FnOnce() -> Result<FillLayer, String> + wgpu::WasmNotSend + 'static,
     ) {
         self.viewer.loading.push(name.to_owned());
         let (proxy, name) = (self.proxy.clone(), name.to_owned());
@@ -119,33 +120,75 @@ impl App {
     }
 
     /// What to do with the text of a file.
-    fn reader(&self) -> impl FnOnce(String, Result<String, String>) + Send + 'static {
+    fn reader(&self) -> impl Fn(String, Result<String, String>) + wgpu::WasmNotSend + 'static {
         let proxy = self.proxy.clone();
         move |name, text| {
             let _ = proxy.send_event(Message::Loading(name.clone()));
-            let layer = text.and_then(|text| files::build(&name, &text));
-            let _ = proxy.send_event(Message::Loaded(name, Box::new(layer)));
+            let proxy = proxy.clone();
+            platform::spawn(move || {
+                let layer = text.and_then(|text| files::build(&name, &text));
+                let _ = proxy.send_event(Message::Loaded(name, Box::new(layer)));
+            });
         }
+    }
+
+    /// Loads what there is to see, once there is something to see it on.
+    fn load_all(&mut self) {
+        let proxy = self.proxy.clone();
+        self.viewer.loading.push(TERRAIN.to_owned());
+        platform::elevation(move |elevation| {
+            let _ = proxy.send_event(Message::Terrain(Box::new(elevation)));
+        });
+        self.load("countries", countries::build);
+        self.load("zones", zones::build);
+        for file in self.flags.files.clone() {
+            self.viewer.loading.push(platform::name(file.as_ref()));
+            platform::read_file(file.into(), self.reader());
+        }
+        let proxy = self.proxy.clone();
+        platform::watch_drops(self.reader(), move |hovers| {
+            let _ = proxy.send_event(Message::Hovers(hovers));
+        });
     }
 
     fn grant_wishes(&mut self) {
         for wish in std::mem::take(&mut self.viewer.wishes) {
             match wish {
                 Wish::OpenFile => platform::ask_file(self.reader()),
-                Wish::Screenshot => match self.save("globefill.png") {
-                    Ok(notice) => self.viewer.notice = Some(notice),
-                    Err(error) => self.viewer.errors.push(error),
-                },
+                Wish::Screenshot => self.take_picture(),
             }
         }
     }
 
-    fn save(&self, file: &str) -> Result<String, String> {
-        let (graphics, _) = self.drawn_with.as_ref().ok_or("nothing is drawn yet")?;
-        platform::save(file, &graphics.png()?)
+    /// Asks for the canvas as it was drawn last.
+    fn take_picture(&self) {
+        if let Some((graphics, _)) = &self.drawn_with {
+            let proxy = self.proxy.clone();
+            graphics.png_then(move |png| {
+                let _ = proxy.send_event(Message::Picture(png));
+            });
+        }
     }
 
-    fn draw(&mut self, events: &ActiveEventLoop) -> Result<(), String> {
+    fn keep_picture(&mut self, png: Result<Vec<u8>, String>, events: &ActiveEventLoop) {
+        let asked = self.flags.screenshot.take();
+        let file = asked.as_deref().unwrap_or("globefill.png");
+        match png.and_then(|png| platform::save(file, &png)) {
+            Ok(notice) if asked.is_some() => {
+                println!("{notice}\n{:?}", self.viewer.stats);
+                events.exit();
+            }
+            Ok(notice) => self.viewer.notice = Some(notice),
+            Err(error) if asked.is_some() => platform::give_up(&error),
+            Err(error) => self.viewer.errors.push(error),
+        }
+    }
+
+    fn draw(&mut self) -> Result<(), String> {
+        // egui tells of its textures once: not before they can be made.
+        if self.drawn_with.is_none() {
+            return Ok(());
+        }
         let now_s = self.now_s();
         let step_s = (now_s - self.last_s).min(LONGEST_STEP_S);
         self.last_s = now_s;
@@ -164,10 +207,9 @@ impl App {
         if self.viewer.loading.is_empty() {
             self.settled_frames += 1;
         }
-        if let Some(file) = &self.flags.screenshot {
-            if self.settled_frames >= SETTLING_FRAMES {
-                println!("{}\n{:?}", self.save(file)?, self.viewer.stats);
-                events.exit();
+        if self.flags.screenshot.is_some() {
+            if self.settled_frames == SETTLING_FRAMES {
+                self.take_picture();
             }
             self.redraw();
         }
@@ -194,11 +236,6 @@ impl App {
             pixels_per_point: output.pixels_per_point,
         };
         Some((paint, soon))
-    }
-
-    fn fail(&mut self, events: &ActiveEventLoop, error: String) {
-        self.failure = Some(error);
-        events.exit();
     }
 
     fn input(&mut self, event: &WindowEvent) {
@@ -243,12 +280,13 @@ impl ApplicationHandler<Message> for App {
             return;
         }
         let size_px = self.viewer.orbit.size_px;
-        let attributes = Window::default_attributes()
-            .with_title("globefill")
-            .with_inner_size(PhysicalSize::new(size_px.x, size_px.y));
-        let window = match events.create_window(attributes) {
+        let created = platform::window(size_px).and_then(|attributes| {
+            let window = events.create_window(attributes);
+            window.map_err(|error| format!("no window: {error}"))
+        });
+        let window = match created {
             Ok(window) => Arc::new(window),
-            Err(error) => return self.fail(events, format!("no window: {error}")),
+            Err(error) => return platform::give_up(&error),
         };
         self.egui_winit = Some(egui_winit::State::new(
             self.egui.clone(),
@@ -264,23 +302,19 @@ impl ApplicationHandler<Message> for App {
             let opened = open(window, size_px).await;
             let _ = proxy.send_event(Message::Opened(Box::new(opened)));
         });
-        self.load("countries", countries::build);
-        self.load("zones", zones::build);
-        for file in self.flags.files.clone() {
-            self.viewer.loading.push(platform::name(file.as_ref()));
-            platform::read_file(file.into(), self.reader());
-        }
     }
 
     fn user_event(&mut self, events: &ActiveEventLoop, message: Message) {
         match message {
             Message::Opened(opened) => match *opened {
-                Ok((graphics, screen)) => {
+                Ok((graphics, mut screen)) => {
+                    // The window may have got another size meanwhile.
+                    screen.resize(&graphics.gpu, self.viewer.orbit.size_px);
                     self.viewer.adapter = graphics.gpu.name.clone();
-                    self.viewer.has_terrain = graphics.has_terrain();
                     self.drawn_with = Some((graphics, screen));
+                    self.load_all();
                 }
-                Err(error) => self.fail(events, error),
+                Err(error) => platform::give_up(&error),
             },
             Message::Loaded(name, layer) => self.viewer.loaded(&name, *layer),
             Message::Loading(name) => {
@@ -288,6 +322,19 @@ impl ApplicationHandler<Message> for App {
                     self.viewer.loading.push(name);
                 }
             }
+            Message::Terrain(elevation) => {
+                self.viewer.loading.retain(|name| name != TERRAIN);
+                match (*elevation, &mut self.drawn_with) {
+                    (Ok(elevation), Some((graphics, _))) => {
+                        graphics.elevation = Some(elevation);
+                        self.viewer.has_terrain = true;
+                    }
+                    (Err(error), _) => self.viewer.errors.push(error),
+                    (Ok(_), None) => {}
+                }
+            }
+            Message::Picture(png) => self.keep_picture(png, events),
+            Message::Hovers(hovers) => self.viewer.dropping = hovers,
         }
         self.redraw();
     }
@@ -325,8 +372,8 @@ impl ApplicationHandler<Message> for App {
                 self.viewer.release(now_s);
             }
             WindowEvent::RedrawRequested => {
-                if let Err(error) = self.draw(events) {
-                    self.fail(events, error);
+                if let Err(error) = self.draw() {
+                    platform::give_up(&error);
                 }
                 return;
             }
@@ -416,7 +463,7 @@ async fn open(window: Arc<Window>, size_px: UVec2) -> Result<(Graphics, Screen),
         queue,
         name: format!("{} ({:?})", info.name, info.backend),
     };
-    let graphics = Graphics::new(gpu, config.format, size_px, platform::elevation())?;
+    let graphics = Graphics::new(gpu, config.format, size_px)?;
     Ok((graphics, Screen { surface, config }))
 }
 

@@ -10,6 +10,7 @@ use crate::{
         elevation::Elevation,
         gpu::Gpu,
         ground::{Ground, GroundPipelines, TargetFormat},
+        png,
     },
     viewer::Viewer,
 };
@@ -21,7 +22,8 @@ pub struct Graphics {
     format: TargetFormat,
     renderer: Renderer,
     view: View,
-    elevation: Option<Elevation>,
+    /// The terrain, once it is there.
+    pub elevation: Option<Elevation>,
     globe: Option<Ground>,
     terrain: Option<Ground>,
     /// By whether it is terrain and the two specialisations.
@@ -37,12 +39,7 @@ pub struct Paint {
 }
 
 impl Graphics {
-    pub fn new(
-        gpu: Gpu,
-        color: wgpu::TextureFormat,
-        size_px: glam::UVec2,
-        elevation: Option<Elevation>,
-    ) -> Result<Self, String> {
+    pub fn new(gpu: Gpu, color: wgpu::TextureFormat, size_px: glam::UVec2) -> Result<Self, String> {
         let format = canvas::format(color);
         let options = RendererOptions {
             color_format: format.color,
@@ -57,16 +54,12 @@ impl Graphics {
             renderer,
             view: View::default(),
             format,
-            elevation,
+            elevation: None,
             globe: None,
             terrain: None,
             pipelines: HashMap::new(),
             gpu,
         })
-    }
-
-    pub fn has_terrain(&self) -> bool {
-        self.elevation.is_some()
     }
 
     /// Draws and submits a frame into the canvas.
@@ -159,14 +152,25 @@ impl Graphics {
         buffers
     }
 
-    /// The canvas as PNG. Waits for the GPU.
-    pub fn png(&self) -> Result<Vec<u8>, String> {
-        let mut texels = self.gpu.read_texture(&self.canvas.color)?;
-        if self.format.color == wgpu::TextureFormat::Bgra8UnormSrgb {
-            texels
-                .chunks_exact_mut(4)
-                .for_each(|texel| texel.swap(0, 2));
-        }
-        crate::host::png::rgb(self.canvas.size_px, &texels)
+    /// Hands on the canvas as PNG, when it is there: on a desktop at once.
+    pub fn png_then(
+        &self,
+        then: impl FnOnce(Result<Vec<u8>, String>) + wgpu::WasmNotSend + 'static,
+    ) {
+        let size_px = self.canvas.size_px;
+        let swaps = self.format.color == wgpu::TextureFormat::Bgra8UnormSrgb;
+        self.gpu
+            .read_texture_then(&self.canvas.color, move |texels| {
+                then(texels.and_then(|mut texels| {
+                    if swaps {
+                        texels
+                            .chunks_exact_mut(4)
+                            .for_each(|texel| texel.swap(0, 2));
+                    }
+                    png::rgb(size_px, &texels)
+                }));
+            });
+        // Where nobody waits, in browsers, this is nothing. What fails is told to `then`.
+        let _ = self.gpu.device.poll(wgpu::PollType::wait_indefinitely());
     }
 }

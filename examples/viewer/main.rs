@@ -24,7 +24,9 @@ mod viewer;
 #[cfg(test)]
 mod tests;
 
-fn main() -> Result<(), String> {
-    let flags = flags::Flags::parse(platform::arguments())?;
-    app::run(flags)
+fn main() {
+    let ran = flags::Flags::parse(platform::arguments()).and_then(app::run);
+    if let Err(error) = ran {
+        platform::give_up(&error);
+    }
 }

@@ -21,7 +21,7 @@ fn viewer_at(camera: &str) -> Viewer {
 
 fn graphics() -> Graphics {
     let gpu = Gpu::open().unwrap();
-    Graphics::new(gpu, wgpu::TextureFormat::Rgba8UnormSrgb, SIZE_PX, None).unwrap()
+    Graphics::new(gpu, wgpu::TextureFormat::Rgba8UnormSrgb, SIZE_PX).unwrap()
 }
 
 fn draw(graphics: &mut Graphics, viewer: &mut Viewer) -> (FrameStats, Vec<u8>) {

@@ -5,7 +5,32 @@ use std::{
     path::{Path, PathBuf},
 };
 
+use glam::UVec2;
+use winit::{
+    application::ApplicationHandler,
+    dpi::PhysicalSize,
+    event_loop::EventLoop,
+    window::{Window, WindowAttributes},
+};
+
 use crate::host::elevation::Elevation;
+
+/// Hands events to an application until it is closed.
+pub fn run_app<T>(
+    events: EventLoop<T>,
+    mut app: impl ApplicationHandler<T> + 'static,
+) -> Result<(), String> {
+    events
+        .run_app(&mut app)
+        .map_err(|error| format!("no window: {error}"))
+}
+
+/// The window to ask for.
+pub fn window(size_px: UVec2) -> Result<WindowAttributes, String> {
+    Ok(Window::default_attributes()
+        .with_title("globefill")
+        .with_inner_size(PhysicalSize::new(size_px.x, size_px.y)))
+}
 
 /// Runs a future to its end.
 pub fn run(future: impl Future<Output = ()> + 'static) {
@@ -35,6 +60,13 @@ pub fn read_file(
     spawn(move || then(name(&path), read(&path)));
 }
 
+/// Files dropped on the window come as its events.
+pub fn watch_drops(
+    _dropped: impl Fn(String, Result<String, String>) + 'static,
+    _hovers: impl Fn(bool) + 'static,
+) {
+}
+
 pub fn name(path: &Path) -> String {
     let name = path.file_name().unwrap_or(path.as_os_str());
     name.to_string_lossy().into_owned()
@@ -51,15 +83,23 @@ pub fn save(file: &str, bytes: &[u8]) -> Result<String, String> {
     Ok(format!("Saved {}", path.display()))
 }
 
-/// The world's terrain, if it comes with the source.
-pub fn elevation() -> Option<Elevation> {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/demo/terrain-world.png");
-    Elevation::read(Path::new(path)).ok()
+/// The world's terrain, which comes with the source.
+pub fn elevation(then: impl FnOnce(Result<Elevation, String>) + Send + 'static) {
+    spawn(|| {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/demo/terrain-world.png");
+        then(Elevation::read(Path::new(path)));
+    });
 }
 
 /// Words of the command line.
 pub fn arguments() -> Vec<String> {
     std::env::args().skip(1).collect()
+}
+
+/// Says why the viewer cannot go on, and ends it.
+pub fn give_up(error: &str) {
+    eprintln!("{error}");
+    std::process::exit(1)
 }
 
 /// A line for whoever drives the viewer from outside, if `VIEWER_LOG` is set.
