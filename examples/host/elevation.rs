@@ -24,30 +24,19 @@ impl Elevation {
     /// Reads a 16-bit grey PNG and the JSON of the same stem.
     pub fn read(path: &Path) -> Result<Self, String> {
         let named = |path: &Path, error: String| format!("{}: {error}", path.display());
-        let picture = std::fs::read(path)
-            .map_err(|error| named(path, format!("cannot read the terrain: {error}")))?;
+        let read = |path: &Path, what: &str| {
+            std::fs::read(path).map_err(|error| named(path, format!("cannot read {what}: {error}")))
+        };
+        let grid = Grid::decode(&read(path, "the terrain")?).map_err(|error| named(path, error))?;
         let json = path.with_extension("json");
-        let placement = std::fs::read_to_string(&json).map_err(|error| {
-            named(
-                &json,
-                format!("cannot read the terrain's placement: {error}"),
-            )
-        })?;
+        let placement = read(&json, "the terrain's placement")?;
         let place = Placement::parse(&placement).map_err(|error| named(&json, error))?;
-        Self::decode(&picture, &place).map_err(|error| named(path, error))
+        Self::new(grid, &place).map_err(|error| named(path, error))
     }
 
-    /// Decodes a 16-bit grey PNG.
-    pub fn decode(png: &[u8], place: &Placement) -> Result<Self, String> {
-        let image = image::load_from_memory_with_format(png, image::ImageFormat::Png)
-            .map_err(|error| format!("cannot read the terrain: {error}"))?;
-        let image::DynamicImage::ImageLuma16(image) = image else {
-            return Err("terrain must be a grey PNG of 16 bits a pixel".into());
-        };
+    /// Puts a picture where it belongs.
+    pub fn new(Grid(image): Grid, place: &Placement) -> Result<Self, String> {
         let size = UVec2::new(image.width(), image.height());
-        if size.min_element() < 2 {
-            return Err("terrain needs at least two rows and two columns".into());
-        }
         let heights_m: Vec<f32> = image
             .into_raw()
             .into_iter()
@@ -156,6 +145,23 @@ impl Elevation {
     }
 }
 
+/// What the picture says: heights as 16-bit grey.
+pub struct Grid(image::ImageBuffer<image::Luma<u16>, Vec<u16>>);
+
+impl Grid {
+    pub fn decode(png: &[u8]) -> Result<Self, String> {
+        let image = image::load_from_memory_with_format(png, image::ImageFormat::Png)
+            .map_err(|error| format!("cannot read the terrain: {error}"))?;
+        let image::DynamicImage::ImageLuma16(image) = image else {
+            return Err("terrain must be a grey PNG of 16 bits a pixel".into());
+        };
+        if image.width().min(image.height()) < 2 {
+            return Err("terrain needs at least two rows and two columns".into());
+        }
+        Ok(Self(image))
+    }
+}
+
 /// What the JSON says.
 pub struct Placement {
     /// West, south, east, north.
@@ -165,8 +171,8 @@ pub struct Placement {
 }
 
 impl Placement {
-    pub fn parse(text: &str) -> Result<Self, String> {
-        let json: Value = serde_json::from_str(text).map_err(|error| error.to_string())?;
+    pub fn parse(text: &[u8]) -> Result<Self, String> {
+        let json: Value = serde_json::from_slice(text).map_err(|error| error.to_string())?;
         let number = |name: &str| {
             json.get(name)
                 .and_then(Value::as_f64)

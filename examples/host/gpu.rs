@@ -1,5 +1,6 @@
 //! A device without a window, and reading textures back.
 
+#[cfg(not(target_arch = "wasm32"))]
 use glam::UVec2;
 #[cfg(not(target_arch = "wasm32"))]
 use globefill::Renderer;
@@ -13,7 +14,7 @@ pub struct Gpu {
     pub name: String,
 }
 
-/// What waits, and is nothing for browsers.
+/// All of this waits, which browsers do not.
 #[cfg(not(target_arch = "wasm32"))]
 impl Gpu {
     /// The first adapter that wgpu finds; `WGPU_BACKEND` chooses another backend.
@@ -85,36 +86,17 @@ impl Gpu {
 
     /// Texels of a texture of 4 bytes a texel, row after row, without padding.
     pub fn read_texture(&self, texture: &wgpu::Texture) -> Result<Vec<u8>, String> {
-        let (sender, texels) = std::sync::mpsc::channel();
-        self.allocate("reading a picture back", || {
-            self.read_texture_then(texture, move |texels| {
-                // Nobody waits any longer if waiting failed.
-                let _ = sender.send(texels);
-            });
-        })?;
-        self.wait()?;
-        texels
-            .try_recv()
-            .map_err(|_| "a picture was not read back")?
-    }
-}
-
-impl Gpu {
-    /// Hands on the texels of a texture of 4 bytes a texel, row after row, without padding, when they are there.
-    pub fn read_texture_then(
-        &self,
-        texture: &wgpu::Texture,
-        then: impl FnOnce(Result<Vec<u8>, String>) + wgpu::WasmNotSend + 'static,
-    ) {
         let size_px = UVec2::new(texture.width(), texture.height());
         let row_bytes = size_px.x * 4;
         let padded_bytes = row_bytes.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
-        let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("read back"),
-            size: u64::from(padded_bytes) * u64::from(size_px.y),
-            usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
-            mapped_at_creation: false,
-        });
+        let buffer = self.allocate("reading a picture back", || {
+            self.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("read back"),
+                size: u64::from(padded_bytes) * u64::from(size_px.y),
+                usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+                mapped_at_creation: false,
+            })
+        })?;
         let mut encoder = self.device.create_command_encoder(&Default::default());
         encoder.copy_texture_to_buffer(
             texture.as_image_copy(),
@@ -129,22 +111,16 @@ impl Gpu {
             texture.size(),
         );
         self.queue.submit([encoder.finish()]);
-        let mapped = buffer.clone();
-        buffer.map_async(wgpu::MapMode::Read, .., move |outcome| {
-            let texels = outcome
-                .map_err(|error| error.to_string())
-                .and_then(|()| {
-                    mapped
-                        .get_mapped_range(..)
-                        .map_err(|error| error.to_string())
-                })
-                .map(|mapped| {
-                    let rows = mapped.chunks(padded_bytes as usize);
-                    rows.flat_map(|row| &row[..row_bytes as usize])
-                        .copied()
-                        .collect()
-                });
-            then(texels.map_err(|error| format!("cannot read a picture back: {error}")));
-        });
+        // The outcome shows when the mapped range is asked for.
+        buffer.map_async(wgpu::MapMode::Read, .., |_| {});
+        self.wait()?;
+        let mapped = buffer
+            .get_mapped_range(..)
+            .map_err(|error| format!("cannot read a picture back: {error}"))?;
+        let mut texels = Vec::with_capacity(row_bytes as usize * size_px.y as usize);
+        for row in mapped.chunks(padded_bytes as usize) {
+            texels.extend_from_slice(&row[..row_bytes as usize]);
+        }
+        Ok(texels)
     }
 }

@@ -164,7 +164,7 @@ impl App {
     fn take_picture(&self) {
         if let Some((graphics, _)) = &self.drawn_with {
             let proxy = self.proxy.clone();
-            graphics.png_then(move |png| {
+            platform::picture(graphics, move |png| {
                 let _ = proxy.send_event(Message::Picture(png));
             });
         }

@@ -10,7 +10,6 @@ use crate::{
         elevation::Elevation,
         gpu::Gpu,
         ground::{Ground, GroundPipelines, TargetFormat},
-        png,
     },
     viewer::Viewer,
 };
@@ -152,25 +151,15 @@ impl Graphics {
         buffers
     }
 
-    /// Hands on the canvas as PNG, when it is there: on a desktop at once.
-    pub fn png_then(
-        &self,
-        then: impl FnOnce(Result<Vec<u8>, String>) + wgpu::WasmNotSend + 'static,
-    ) {
-        let size_px = self.canvas.size_px;
-        let swaps = self.format.color == wgpu::TextureFormat::Bgra8UnormSrgb;
-        self.gpu
-            .read_texture_then(&self.canvas.color, move |texels| {
-                then(texels.and_then(|mut texels| {
-                    if swaps {
-                        texels
-                            .chunks_exact_mut(4)
-                            .for_each(|texel| texel.swap(0, 2));
-                    }
-                    png::rgb(size_px, &texels)
-                }));
-            });
-        // Where nobody waits, in browsers, this is nothing. What fails is told to `then`.
-        let _ = self.gpu.device.poll(wgpu::PollType::wait_indefinitely());
+    /// The canvas as PNG. Waits for the GPU.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub fn png(&self) -> Result<Vec<u8>, String> {
+        let mut texels = self.gpu.read_texture(&self.canvas.color)?;
+        if self.format.color == wgpu::TextureFormat::Bgra8UnormSrgb {
+            texels
+                .chunks_exact_mut(4)
+                .for_each(|texel| texel.swap(0, 2));
+        }
+        crate::host::png::rgb(self.canvas.size_px, &texels)
     }
 }

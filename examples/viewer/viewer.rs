@@ -243,9 +243,13 @@ impl Viewer {
         let fact = |hit: Hit| self.layers.get(hit.layer)?.facts.get(hit.fill as usize);
         let picked = self.picked.and_then(fact).map_or("-", |fact| &fact.name);
         format!(
-            "loading={} errors={} picked={picked} distance_m={:.1} sensors={} coverage={} upload={} .",
+            "loading={} errors={} shown={} picked={picked} distance_m={:.1} sensors={} coverage={} upload={} .",
             self.loading.len(),
             self.errors.len(),
+            self.layers
+                .iter()
+                .filter(|layer| layer.look.visible)
+                .count(),
             self.orbit.distance_m,
             self.stats.sensors,
             self.satellites.settings.coverage,

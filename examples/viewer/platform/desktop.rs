@@ -13,7 +13,7 @@ use winit::{
     window::{Window, WindowAttributes},
 };
 
-use crate::host::elevation::Elevation;
+use crate::{graphics::Graphics, host::elevation::Elevation};
 
 /// Hands events to an application until it is closed.
 pub fn run_app<T>(
@@ -74,6 +74,11 @@ pub fn name(path: &Path) -> String {
 
 fn read(path: &Path) -> Result<String, String> {
     std::fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))
+}
+
+/// What was drawn last, as PNG.
+pub fn picture(graphics: &Graphics, then: impl FnOnce(Result<Vec<u8>, String>)) {
+    then(graphics.png());
 }
 
 /// Writes a picture, and tells where to.

@@ -21,7 +21,10 @@ use winit::{
     window::{Window, WindowAttributes},
 };
 
-use crate::host::elevation::{Elevation, Placement};
+use crate::{
+    graphics::Graphics,
+    host::elevation::{Elevation, Grid, Placement},
+};
 
 /// The page's canvas.
 const CANVAS: &str = "globe";
@@ -43,12 +46,8 @@ pub fn run_app<T>(
 
 /// The page's canvas, which the page sizes.
 pub fn window(_size_px: UVec2) -> Result<WindowAttributes, String> {
-    let canvas = document()?
-        .get_element_by_id(CANVAS)
-        .and_then(|element| element.dyn_into::<HtmlCanvasElement>().ok())
-        .ok_or("the page has no canvas")?;
     Ok(Window::default_attributes()
-        .with_canvas(Some(canvas))
+        .with_canvas(Some(canvas()?))
         // The page itself keeps what belongs to the globe from the browser, and leaves it its keys.
         .with_prevent_default(false))
 }
@@ -136,6 +135,21 @@ pub fn name(path: &Path) -> String {
     name.to_string_lossy().into_owned()
 }
 
+/// What was drawn last, as PNG: the browser keeps the canvas.
+pub fn picture(_graphics: &Graphics, then: impl FnOnce(Result<Vec<u8>, String>) + 'static) {
+    let encoded = Closure::once_into_js(move |blob: Option<Blob>| {
+        spawn_local(async move {
+            let bytes = match blob {
+                Some(blob) => bytes(blob.array_buffer()).await,
+                None => Err("the canvas is empty".to_owned()),
+            };
+            then(bytes);
+        });
+    });
+    // A canvas that is there and of one's own cannot refuse.
+    let _ = canvas().map(|canvas| canvas.to_blob(encoded.unchecked_ref()));
+}
+
 /// Downloads a picture.
 pub fn save(file: &str, bytes: &[u8]) -> Result<String, String> {
     let parts = Array::of1(&Uint8Array::from(bytes));
@@ -158,8 +172,8 @@ pub fn elevation(then: impl FnOnce(Result<Elevation, String>) + 'static) {
     spawn_local(async move {
         let read = async {
             let placement = fetch("terrain-world.json").await?;
-            let placement = Placement::parse(&String::from_utf8_lossy(&placement))?;
-            Elevation::decode(&fetch("terrain-world.png").await?, &placement)
+            let grid = Grid::decode(&fetch("terrain-world.png").await?)?;
+            Elevation::new(grid, &Placement::parse(&placement)?)
         };
         then(read.await);
     });
@@ -210,6 +224,13 @@ fn document() -> Result<Document, String> {
         .ok_or_else(|| "there is no page".to_owned())
 }
 
+fn canvas() -> Result<HtmlCanvasElement, String> {
+    document()?
+        .get_element_by_id(CANVAS)
+        .and_then(|element| element.dyn_into().ok())
+        .ok_or_else(|| "the page has no canvas".to_owned())
+}
+
 /// Shows a text instead of the globe.
 fn tell(text: &str) {
     if let Some(element) = document().ok().and_then(|it| it.get_element_by_id(MESSAGE)) {
@@ -231,8 +252,15 @@ async fn fetch(url: &str) -> Result<Vec<u8>, String> {
             response.status_text()
         ));
     }
-    let buffer = JsFuture::from(response.array_buffer().map_err(named)?).await;
-    Ok(Uint8Array::new(&buffer.map_err(named)?).to_vec())
+    let buffer = response.array_buffer().map_err(named)?;
+    bytes(buffer)
+        .await
+        .map_err(|error| format!("{url}: {error}"))
+}
+
+async fn bytes(buffer: js_sys::Promise) -> Result<Vec<u8>, String> {
+    let buffer = JsFuture::from(buffer).await.map_err(|error| told(&error))?;
+    Ok(Uint8Array::new(&buffer).to_vec())
 }
 
 fn read_blob(file: File, then: impl FnOnce(String, Result<String, String>) + 'static) {
