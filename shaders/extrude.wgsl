@@ -23,6 +23,9 @@ struct Frame {
     slack: vec4<f32>,
     // Depth before the division by w: x * distance + y.
     depth: vec4<f32>,
+    // xyz: a direction. Where it times the surface position, 256 m by 256 m, is below w, all is hidden by the
+    // horizon: tops are as low as bottoms there.
+    beyond: vec4<i32>,
 }
 
 // How a vertex is drawn.
@@ -54,6 +57,8 @@ const BREAK: u32 = 0x80u;
 
 // Whether weights are summed.
 override WEIGHTS: bool = false;
+// Bits of a check that is summed in one plane with its id, above it; 0 for planes of their own.
+override JOINED: u32 = 0u;
 
 fn relative_m(vertex: vec4<i32>) -> vec3<f32> {
     // Exact: the eye is clamped so that the differences stay below 2^31.
@@ -77,7 +82,9 @@ fn extruded_m(vertex: vec4<i32>, drawn: u32) -> vec3<f32> {
     let pushed_m = min(frame.heights.z * distance_m, frame.heights.w);
     let bottom_m = min(frame.heights.y, -pushed_m) - slack_m;
     let top_m = frame.heights.x + slack_m;
-    return surface_m + normal * select(bottom_m, top_m, drawn == TOP);
+    let along = frame.beyond.xyz * (vertex.xyz >> vec3<u32>(15u));
+    let is_flat = along.x + along.y + along.z < frame.beyond.w;
+    return surface_m + normal * select(bottom_m, top_m, drawn == TOP && !is_flat);
 }
 
 fn clip(vertex: vec4<i32>, drawn: u32) -> vec4<f32> {
@@ -99,6 +106,10 @@ fn code_digits(piece_plus_one: u32) -> vec4<f32> {
 }
 
 fn digits_of(code: u32) -> vec4<f32> {
+    if JOINED > 0u {
+        let check = (code >> 8u) & ((1u << JOINED) - 1u);
+        return vec4<f32>(f32(((code & 255u) << JOINED) | check), 0.0, 0.0, 0.0);
+    }
     return vec4<f32>(vec4<u32>(code & 255u, (code >> 8u) & 255u, (code >> 16u) & 255u, code >> 24u));
 }
 

@@ -19,6 +19,8 @@ struct Layer {
 override DIGITS: u32 = 0u;
 override PLANES: u32 = 0u;
 override CHECK_BITS: u32 = 0u;
+// Bits of a check that is summed in one plane with its id, above it; 0 for planes of their own.
+override JOINED: u32 = 0u;
 
 fn digits() -> u32 {
     if DIGITS > 0u {
@@ -51,12 +53,16 @@ fn known_of_layer() -> vec4<u32> {
     return vec4<u32>(layer.fills, layer.base, vec2<u32>(size_px() - 1));
 }
 
-// Whether the planes behind the digits are those that check an id; as in Code::planes_of of the crate. They
-// are all zero for nothing.
-fn are_checked(id: u32, found: vec2<f32>) -> bool {
+// Where the checks of an id are taken from; as in Code::planes_of of the crate. Zero for nothing.
+fn mixed_of(id: u32) -> u32 {
     var mixed = (id ^ (id >> 16u)) * 0x7feb352du;
     mixed = (mixed ^ (mixed >> 15u)) * 0x846ca68bu;
-    mixed ^= mixed >> 16u;
+    return mixed ^ (mixed >> 16u);
+}
+
+// Whether the planes behind the digits are those that check an id. They are all zero for nothing.
+fn are_checked(id: u32, found: vec2<f32>) -> bool {
+    let mixed = mixed_of(id);
     let mask = (1u << check_bits()) - 1u;
     var checked = true;
     if checks() > 0u {
@@ -71,6 +77,13 @@ fn are_checked(id: u32, found: vec2<f32>) -> bool {
 // Which fill the sums at a pixel name; they are integers. Where faces meet within a rounding step of the
 // surface, sums can be those of no fill: a digit out of range, or checks that belong to another id.
 fn fill_of(sums: vec4<f32>) -> u32 {
+    if JOINED > 0u {
+        // Below zero is beyond all as well.
+        let sum = bitcast<u32>(i32(sums.x));
+        let id = sum >> JOINED;
+        let checked = ((sum ^ mixed_of(id)) & ((1u << JOINED) - 1u)) == 0u;
+        return select(INVALID, id, id <= known.x && checked);
+    }
     let base = f32(known.y);
     var number = sums.x;
     var found = sums.yz;

@@ -1,5 +1,6 @@
 //! What one view draws in one frame, decided in f64 without the GPU.
 
+pub(crate) mod beyond;
 pub(crate) mod code;
 pub(crate) mod detail;
 pub(crate) mod edge_draws;

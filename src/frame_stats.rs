@@ -17,6 +17,8 @@ pub struct FrameStats {
     pub layers: u32,
     /// Layers that are resolved with patterns, strokes or fades: 0 where plain colours say all.
     pub styled_layers: u32,
+    /// Layers whose sums take one channel a pixel instead of two or four, since this frame's are proven to fit.
+    pub joined_layers: u32,
     /// Counting passes that `count` records: one for each layer of which anything is drawn.
     pub passes: u32,
     /// Passes in which `count` measures how far pixels are from boundaries: one for each layer with

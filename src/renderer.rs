@@ -14,6 +14,7 @@ use std::{
 use crate::{
     error::RendererError,
     fill_mesh::FillMesh,
+    frame::beyond::longest_edge_rad,
     frame::code::Mantissa,
     frame::detail::Coarseness,
     frame::layers::Counting,
@@ -72,6 +73,8 @@ struct Resident {
     places: Vec<Option<PatternPlace>>,
     gpu: GpuMesh,
     coarser: Vec<CoarserLevel>,
+    /// By level, the finest first: the longest edge drawn, in coordinates divided by the radii.
+    longest_edges_rad: Vec<f64>,
 }
 
 /// A level of detail behind the first.
@@ -91,6 +94,10 @@ impl Resident {
         };
         Self {
             gpu: GpuMesh::new(device, &mesh),
+            longest_edges_rad: std::iter::once(&mesh)
+                .chain(&mesh.coarser)
+                .map(longest_edge_rad)
+                .collect(),
             coarser: mesh.coarser.iter().map(level).collect(),
             styles: vec![FillStyle::default(); mesh.fills.len()],
             places: vec![None; mesh.fills.len()],

@@ -264,7 +264,7 @@ mod tests {
         let (members, size) = layout_of(&super::count(false), "Frame");
         let expected = offsets!(
             FrameUniform: clip_from_relative, eye, eye_fraction, eye_remainder, normal_scale,
-            heights, slack, depth
+            heights, slack, depth, beyond
         );
         assert_eq!(members, expected);
         assert_eq!(size, size_of::<FrameUniform>());

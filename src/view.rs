@@ -227,6 +227,7 @@ pub(crate) struct FrameUniform {
     pub heights: [f32; 4],
     pub slack: [f32; 4],
     pub depth: [f32; 4],
+    pub beyond: [i32; 4],
 }
 
 impl FrameUniform {
@@ -258,6 +259,10 @@ impl FrameUniform {
             heights: heights.map(|height| height as f32),
             slack: [constant, linear, quadratic, sight.near_m as f32],
             depth: [depth[0] as f32, depth[1] as f32, 0.0, 0.0],
+            beyond: sight.beyond.map_or([0, 0, 0, i32::MIN], |beyond| {
+                let [x, y, z] = beyond.direction;
+                [x, y, z, beyond.limit]
+            }),
         }
     }
 }

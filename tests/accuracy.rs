@@ -5,7 +5,7 @@
 
 mod common;
 
-use std::time::Instant;
+use std::{collections::BTreeSet, time::Instant};
 
 use common::{
     camera::Pose,
@@ -19,8 +19,8 @@ use common::{
 };
 use glam::UVec2;
 use globefill::{
-    CountTechnique, EdgeKind, Ellipsoid, FillMesh, LonLat, Region, View, countries::Dataset,
-    fill_mesh::MeshOptions,
+    CountTechnique, EdgeKind, Ellipsoid, FillMesh, LonLat, Polygon, Region, View,
+    countries::Dataset, fill_mesh::MeshOptions,
 };
 
 const SMALL: UVec2 = UVec2::new(320, 180);
@@ -67,6 +67,8 @@ struct Gate<'a> {
     size_px: UVec2,
     samples: u32,
     pictures: usize,
+    /// What `FrameStats::joined_layers` said of winding sums.
+    joined: BTreeSet<u32>,
     failed: Vec<String>,
 }
 
@@ -77,6 +79,7 @@ impl<'a> Gate<'a> {
             size_px,
             samples,
             pictures: 0,
+            joined: BTreeSet::new(),
             failed: Vec::new(),
         }
     }
@@ -107,6 +110,11 @@ impl<'a> Gate<'a> {
                 let score = judge(&subject.oracle, &surface, &expected, &picture.ids, 0.0);
                 println!("{view}, {count:?}: {score}; {:?}; {ms} ms", picture.stats);
                 self.note(&format!("{view}, {count:?}"), &score);
+                if count == CountTechnique::Winding {
+                    self.joined.insert(picture.stats.joined_layers);
+                } else {
+                    assert_eq!(picture.stats.joined_layers, 0);
+                }
                 picture.ids
             });
             let disagreeing: Vec<usize> = (0..surface.pixel_count())
@@ -310,6 +318,50 @@ fn nothing_is_wrong_on_countries_of_50m() {
 fn nothing_is_wrong_on_countries_at_full_size() {
     countries_from_everywhere(Dataset::Countries110m, FULL);
     countries_from_everywhere(Dataset::Countries50m, FULL);
+}
+
+/// Rings about each other, each a fill.
+fn rings(count: u32) -> Subject {
+    const CORNERS: u32 = 24;
+    let ring = |k: u32| -> Vec<LonLat> {
+        let corners = (0..CORNERS).map(|corner| {
+            let turn = std::f64::consts::TAU * f64::from(corner) / f64::from(CORNERS);
+            let radius_deg = 0.5 + 5.0 * f64::from(k) / f64::from(count);
+            LonLat::new(
+                20.0 + radius_deg * turn.cos(),
+                10.0 + radius_deg * turn.sin(),
+            )
+        });
+        corners.collect()
+    };
+    let regions: Vec<Region> = (1..=count)
+        .map(|k| Region {
+            polygons: vec![Polygon {
+                shell: ring(k),
+                holes: vec![ring(k - 1)],
+            }],
+            ..Default::default()
+        })
+        .collect();
+    let mesh = FillMesh::build(&regions, &MeshOptions::default()).expect("rings are sound");
+    Subject::new(&format!("{count} rings"), &regions, mesh)
+}
+
+/// Ids and checks share a plane while sums have room in it, and no longer: where the faces of many fills may
+/// lie over each other, there is none.
+#[test]
+fn nothing_is_wrong_whether_sums_share_a_plane_or_not() {
+    let Some(gpu) = gpu() else { return };
+    for (count, joined) in [(6, 1), (220, 0)] {
+        let mut gate = Gate::new(gpu, SMALL, 1);
+        let subject = rings(count);
+        for (height_m, pitch_deg) in [(1.5e6, -90.0), (1e5, -40.0)] {
+            let pose = Pose::nadir(20.0, 8.0, height_m).turned(10.0, pitch_deg);
+            gate.check(&subject, pose, Terrain::Rough);
+        }
+        assert_eq!(gate.joined, BTreeSet::from([joined]), "{count} rings");
+        gate.finish();
+    }
 }
 
 /// The gate can fail: a border drawn a fifth of a pixel aside is seen as that.

@@ -11,6 +11,15 @@ const MAX_BASE: u32 = 256;
 /// Check digits have the first of these numbers of bits that leaves head-room.
 const CHECK_BITS: [u32; 2] = [5, 2];
 
+/// Checks that share a plane with their ids have the first of these numbers of bits that leaves head-room.
+const JOINED_BITS: [u32; 2] = [5, 4];
+
+/// The number that is summed for a packed code where so many bits of its check share the plane of the id; as in
+/// extrude.wgsl.
+pub(crate) fn joined_number(packed: u32, bits: u32) -> u32 {
+    (packed & 0xff) << bits | packed >> 8 & ((1 << bits) - 1)
+}
+
 /// One number for each plane of a code.
 pub(crate) type PlaneSums = [u64; MAX_PLANES as usize];
 
@@ -43,12 +52,20 @@ pub(crate) struct CodeShape {
     digits: u32,
     planes: u32,
     check_bits: u32,
+    /// As in [`Planes`](crate::gpu::planes::Planes).
+    joined: u32,
 }
 
 impl CodeShape {
+    /// The same with so many bits of the check in the plane of the id.
+    pub(crate) fn joined(self, joined: u32) -> Self {
+        Self { joined, ..self }
+    }
+
     /// The overrides of layer.wgsl.
-    pub(crate) fn constants(self) -> [(&'static str, f64); 3] {
+    pub(crate) fn constants(self) -> [(&'static str, f64); 4] {
         [
+            ("JOINED", self.joined.into()),
             ("DIGITS", self.digits.into()),
             ("PLANES", self.planes.into()),
             ("CHECK_BITS", self.check_bits.into()),
@@ -89,7 +106,16 @@ impl Code {
             digits: self.digits,
             planes: self.planes,
             check_bits: self.check_bits,
+            joined: 0,
         }
+    }
+
+    /// With how many bits of the check ids may be summed in one plane, the most first: none for codes that
+    /// are not an id and a check.
+    pub(crate) fn joined_bits(&self) -> impl Iterator<Item = u32> {
+        let is_checked_id = (self.digits, self.planes) == (1, 2);
+        let most = if is_checked_id { self.check_bits } else { 0 };
+        JOINED_BITS.into_iter().filter(move |&bits| bits <= most)
     }
 
     /// A code for counting by stencil, where nothing is summed.
@@ -187,6 +213,49 @@ mod tests {
         // 241 fills of 1 500 triangles: ids in one digit would sum to 4·10⁷.
         let code = Code::fitting(&[1_500; 241], Mantissa::Single, 1).expect("two digits fit");
         assert_eq!((code.digits, code.planes, code.base), (2, 4, 16));
+    }
+
+    #[test]
+    fn joined_numbers_name_their_ids() {
+        let code = Code::fitting(&[100; 242], Mantissa::Single, 1).expect("fits");
+        let bits: Vec<u32> = code.joined_bits().collect();
+        assert_eq!(bits, [5, 4]);
+        for bits in bits {
+            let numbers: Vec<u32> = (0..=242)
+                .map(|id| {
+                    if id == 0 {
+                        0
+                    } else {
+                        joined_number(code.packed(id), bits)
+                    }
+                })
+                .collect();
+            for (id, number) in (0..).zip(&numbers) {
+                assert_eq!(number >> bits, id);
+            }
+            let known: std::collections::HashSet<i64> =
+                numbers.iter().map(|&number| number.into()).collect();
+            let (mut valid, mut tried) = (0, 0);
+            for a in &numbers[1..] {
+                for b in numbers[1..].iter().step_by(7).filter(|&b| b != a) {
+                    for c in numbers[1..].iter().step_by(11).filter(|&c| c != b) {
+                        tried += 1;
+                        let sum = i64::from(*a) - i64::from(*b) + i64::from(*c);
+                        valid += u32::from(known.contains(&sum));
+                    }
+                }
+            }
+            println!("{valid} of {tried} false sums are some id's number");
+            let most = if bits == 5 { 0.04 } else { 0.08 };
+            assert!(
+                f64::from(valid) < most * f64::from(tried),
+                "{valid} of {tried}"
+            );
+        }
+        for other in [1, 3_000] {
+            let code = Code::fitting(&vec![1; other], Mantissa::Single, 1).expect("fits");
+            assert_eq!(code.joined_bits().count(), 0, "{other} fills");
+        }
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Level of detail: which of a mesh's levels a view draws in one frame.
 
-use glam::{DMat3, DVec2, DVec3, Vec4Swizzles as _};
+use glam::{DMat3, DVec2, DVec3};
 
 use crate::{
     fill_mesh::{Arc, Bounds, FillMesh},
@@ -86,14 +86,10 @@ impl Rays {
     const PARTS: u32 = 6;
 
     fn new(sight: &Sight) -> Self {
-        let rows = sight.clip_from_relative.transpose();
-        let rows = [rows.x_axis, rows.y_axis, rows.w_axis].map(|row| row.xyz());
         let (foot, _) = sight.ellipsoid.geodetic(sight.eye_ecef_m);
         let down = -sight.ellipsoid.normal(foot);
         Self {
-            from_ndc: DMat3::from_cols_array_2d(&rows.map(|row| row.to_array()))
-                .transpose()
-                .inverse(),
+            from_ndc: sight.rays_from_ndc(),
             window: sight.globe_window().common(Window::FULL).corners(),
             down,
         }

@@ -65,7 +65,7 @@ impl Mixture {
     }
 
     /// By how much the depths of two codes differ, in the component that differs most; code 0 has none.
-    fn difference(&self, a: u32, b: u32) -> f64 {
+    pub(crate) fn difference(&self, a: u32, b: u32) -> f64 {
         let [a, b] = [a, b].map(|code| match code.checked_sub(1) {
             Some(index) => self.depths[index as usize],
             None => [0.0; 4],

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use crate::{
     fill_mesh::{Arc, CapChunk, FillMesh, Piece},
+    frame::beyond::Beyond,
     frame::code::PlaneSums,
     frame::edge_draws::{ArcEdges, EdgeDraws, EdgeWants},
     frame::edge_segments::EdgeSegments,
@@ -57,7 +58,7 @@ impl CapRun {
     }
 
     /// What it is made of.
-    fn chunks<'a>(&self, mesh: &'a FillMesh) -> &'a [CapChunk] {
+    pub(crate) fn chunks<'a>(&self, mesh: &'a FillMesh) -> &'a [CapChunk] {
         let before = |triangle| {
             let chunks = &mesh.cap_chunks;
             chunks.partition_point(|chunk| chunk.first_triangle < triangle)
@@ -133,7 +134,7 @@ impl Selection {
                     .collect();
                 LayerDraws {
                     caps: cap_runs(mesh, &in_layer, sight, mixing),
-                    walls: wall_runs(mesh, &in_layer, &arc_seen, &selection.patch),
+                    walls: wall_runs(mesh, &in_layer, &arc_seen, &selection.patch, sight),
                     patches: patch_runs(mesh, &in_layer, &arc_seen, &selection.patch),
                     edges: EdgeDraws {
                         chords: slot_runs(mesh, &selection.patch, |arc| {
@@ -225,7 +226,9 @@ fn cap_runs(mesh: &FillMesh, codes: &[u32], sight: &Sight, mixing: bool) -> Vec<
     let mut runs: Vec<CapRun> = Vec::new();
     let code_of = |piece: u32| codes[piece as usize + 1];
     for chunk in &mesh.cap_chunks {
-        if code_of(chunk.piece) == 0 || sight.outside_side_plane(&chunk.bounds) {
+        let unseen =
+            || sight.outside_side_plane(&chunk.bounds) || sight.is_flat_over(&chunk.bounds);
+        if code_of(chunk.piece) == 0 || unseen() {
             continue;
         }
         let triangles = chunk.first_triangle..chunk.first_triangle + chunk.triangle_count;
@@ -249,11 +252,67 @@ fn cap_runs(mesh: &FillMesh, codes: &[u32], sight: &Sight, mixing: bool) -> Vec<
     runs
 }
 
-fn wall_runs(mesh: &FillMesh, codes: &[u32], arc_seen: &[bool], patch: &Patch) -> Vec<Range<u32>> {
-    slot_runs(mesh, patch, |index| {
+fn wall_runs(
+    mesh: &FillMesh,
+    codes: &[u32],
+    arc_seen: &[bool],
+    patch: &Patch,
+    sight: &Sight,
+) -> Vec<Range<u32>> {
+    let runs = slot_runs(mesh, patch, |index| {
         let arc = &mesh.arcs[index];
-        arc_seen[index] && code_of(codes, arc.left) != code_of(codes, arc.right)
-    })
+        let weighs = code_of(codes, arc.left) != code_of(codes, arc.right);
+        arc_seen[index] && weighs && !sight.is_flat_over(&arc.bounds)
+    });
+    match sight.beyond {
+        Some(beyond) => without_flat(mesh, runs, &beyond),
+        None => runs,
+    }
+}
+
+/// As many chords without height are worth another draw.
+const LEAST_FLAT: u32 = 32;
+
+/// What is left of runs of slots without the longer stretches where walls have no height.
+fn without_flat(mesh: &FillMesh, runs: Vec<Range<u32>>, beyond: &Beyond) -> Vec<Range<u32>> {
+    let mut left = Vec::with_capacity(runs.len());
+    let mut arcs = (0..).zip(&mesh.arcs).peekable();
+    for run in runs {
+        let mut start = run.start;
+        let end_of = |index: u32, arc: &Arc| slot(index, arc.first_vertex) + arc.vertex_count;
+        while arcs
+            .next_if(|(index, arc)| end_of(*index, arc) <= run.start)
+            .is_some()
+        {}
+        let mut within = arcs.clone();
+        while let Some((index, arc)) =
+            within.next_if(|(index, arc)| slot(*index, arc.first_vertex) < run.end)
+        {
+            if !beyond.holds_some(&arc.bounds) {
+                continue;
+            }
+            let first = slot(index, arc.first_vertex).max(run.start);
+            let end = end_of(index, arc).min(run.end);
+            let mut flat_from = first;
+            for at in first..=end {
+                let is_flat = at < end && beyond.holds_point(mesh.vertices[(at - index) as usize]);
+                if is_flat {
+                    continue;
+                }
+                if at - flat_from > LEAST_FLAT {
+                    // Not where only the way from one flat stretch to the next is left.
+                    if flat_from > first || start + 2 != first {
+                        left.push(start..flat_from + 1);
+                    }
+                    start = at - 1;
+                }
+                flat_from = at + 1;
+            }
+        }
+        left.push(start..run.end);
+    }
+    left.retain(|run| run.len() > 1);
+    left
 }
 
 /// The slots of the arcs that are drawn, without their refined chords.

@@ -1,11 +1,12 @@
 //! What a frame's camera sees, in f64: everything the selection needs, derived once a frame.
 
-use glam::{DMat4, DVec3, DVec4, Vec4Swizzles as _};
+use glam::{DMat3, DMat4, DVec3, DVec4, Vec4Swizzles as _};
 
 use crate::{
     ellipsoid::Ellipsoid,
     error::RendererError,
     fill_mesh::Bounds,
+    frame::beyond::Beyond,
     frame::lens::{Lens, LensKind, Pixel, SLACK_M},
     frame::window::Window,
     options::{Frame, LogDepth, RendererOptions},
@@ -19,6 +20,9 @@ const FINEST_TOLERANCE_M: f64 = 4e-6;
 /// How far, pixels, rasterisers move a vertex: half of a 1/256 px an axis, doubled. A face seen at a slant
 /// is moved in height by as much: where it touches the surface, in front of it.
 const SNAP_PX: f64 = std::f64::consts::SQRT_2 / 256.0;
+
+/// How often the horizon is found anew for what it says itself.
+const HORIZON_ROUNDS: u32 = 4;
 
 /// How far the walls reach, as functions of the distance to the eye.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -90,6 +94,9 @@ pub(crate) struct Sight {
     pub extrusion: Extrusion,
     /// The frustum's side planes: inward unit normal, and how far inside the eye is.
     pub side_planes: [DVec4; 4],
+    horizon: Option<(DVec3, f64)>,
+    /// Where volumes have no height.
+    pub beyond: Option<Beyond>,
 }
 
 impl Sight {
@@ -125,7 +132,7 @@ impl Sight {
             extrusion.push_per_m = push;
             extrusion.slack[1] += snapped;
         }
-        Ok(Self {
+        let sight = Self {
             ellipsoid,
             eye_height_m: ellipsoid.geodetic(lens.eye_ecef_m).1,
             from_host_eye_m: lens.eye_ecef_m - frame.camera.eye_ecef_m,
@@ -143,7 +150,27 @@ impl Sight {
             far_plane: lens.far_plane,
             depth: lens.depth,
             near_m: lens.near_m,
-        })
+            horizon: None,
+            beyond: None,
+        };
+        Ok(sight.with_horizon())
+    }
+
+    pub(super) fn with_horizon(mut self) -> Self {
+        self.horizon = self.find_horizon();
+        self
+    }
+
+    /// The same where volumes have no height beyond the horizon, if none of the faces drawn has an edge longer
+    /// than `edge_rad`, in coordinates divided by the radii.
+    pub(crate) fn flat_beyond(mut self, edge_rad: f64) -> Self {
+        self.beyond = Beyond::of(&self, edge_rad);
+        self
+    }
+
+    /// Whether a volume has no height over anything in `bounds`.
+    pub(crate) fn is_flat_over(&self, bounds: &Bounds) -> bool {
+        self.beyond.is_some_and(|beyond| beyond.holds_all(bounds))
     }
 
     /// How far, metres, a point relative to the eye lies outside the frustum's sides; negative inside.
@@ -161,23 +188,48 @@ impl Sight {
     }
 
     /// Whether the ellipsoid, as low as the host's surface may be, hides all surface in `bounds`.
-    ///
-    /// In coordinates divided by the radii the ellipsoid is the unit sphere: eye and point see each
-    /// other if their angle is at most the sum of their horizon angles.
     pub(crate) fn beyond_horizon(&self, bounds: &Bounds) -> bool {
+        self.horizon().is_some_and(|(eye, horizon_rad)| {
+            eye.angle_between(bounds.axis) - bounds.radius_rad > horizon_rad
+        })
+    }
+
+    /// In coordinates divided by the radii: the direction of the eye, and the angle from there about the centre
+    /// within which the foot points of all surface lie that the ellipsoid, as low as the host's surface may be,
+    /// does not hide. None if it hides nothing.
+    pub(crate) fn horizon(&self) -> Option<(DVec3, f64)> {
+        self.horizon
+    }
+
+    /// In those coordinates the ellipsoid is the unit sphere: eye and point see each other if their angle is at
+    /// most the sum of their horizon angles.
+    fn find_horizon(&self) -> Option<(DVec3, f64)> {
         let radii_m = self.ellipsoid.radii_m();
         let shortest_m = radii_m.min_element();
-        let occluder = 1.0 + self.lowest_surface_m() / shortest_m;
-        let Some((eye, from_above_rad)) = self.horizon_of(occluder) else {
-            return false;
-        };
         let highest = 1.0 + (self.surface_m.1.max(0.0) + SLACK_M) / shortest_m;
-        let horizon_rad = from_above_rad + (occluder / highest).min(1.0).acos();
-        let apart_rad = eye.angle_between(bounds.axis) - bounds.radius_rad;
-        // Bounds hold foot points: divided by the radii, the normal that a point stands on leaves the
-        // radial direction by up to twice the flattening.
+        // Foot points: divided by the radii, the normal that a point stands on leaves the radial direction by
+        // up to twice the flattening.
         let leaning_rad = 2.0 * self.ellipsoid.flattening().abs() * (highest - 1.0);
-        apart_rad > horizon_rad + leaning_rad + 1e-6
+        let mut farthest_m = self.eye_ecef_m.length() + self.ellipsoid.a_m;
+        let mut found = None;
+        // Surface is the lower the farther it may be; what is found tells how far that is.
+        for _ in 0..HORIZON_ROUNDS {
+            let occluder = 1.0 + self.extrusion.bottom_at_m(farthest_m) / shortest_m;
+            let (eye, from_above_rad) = self.horizon_of(occluder)?;
+            let horizon_rad = from_above_rad + (occluder / highest).min(1.0).acos();
+            found = Some((eye.normalize(), horizon_rad + leaning_rad + 1e-6));
+            if self.parallel {
+                break;
+            }
+            let far = |height: f64| {
+                let cosine = horizon_rad.min(std::f64::consts::PI).cos();
+                eye.length_squared() + height * (height - 2.0 * eye.length() * cosine)
+            };
+            // Along the column it is farthest at an end.
+            let reach = far(occluder).max(far(highest)).max(0.0).sqrt();
+            farthest_m = farthest_m.min(reach * radii_m.max_element());
+        }
+        found
     }
 
     /// Whether every line of sight through a top cap over `bounds` has no surface before it.
@@ -216,11 +268,6 @@ impl Sight {
         (eye_distance > occluder).then(|| (eye, (occluder / eye_distance).acos()))
     }
 
-    fn lowest_surface_m(&self) -> f64 {
-        let farthest_m = self.eye_ecef_m.length() + self.ellipsoid.a_m;
-        self.extrusion.bottom_at_m(farthest_m)
-    }
-
     /// A sphere around everything in `bounds` at any height drawn: middle relative to the eye, radius.
     pub(crate) fn sphere(&self, bounds: &Bounds) -> (DVec3, f64) {
         let radii_m = self.ellipsoid.radii_m();
@@ -241,12 +288,28 @@ impl Sight {
 
     /// What may be seen of any surface.
     pub(crate) fn globe_window(&self) -> Window {
-        let radius_m = self.ellipsoid.a_m.max(self.ellipsoid.b_m) + self.surface_m.1.max(0.0);
-        Window::of_sphere(
-            &self.clip_from_relative,
-            -self.eye_ecef_m,
-            radius_m + SLACK_M,
-        )
+        let height_m = self.surface_m.1.max(0.0) + SLACK_M;
+        let radius_m = self.ellipsoid.a_m.max(self.ellipsoid.b_m) + height_m;
+        let window = Window::of_sphere(&self.clip_from_relative, -self.eye_ecef_m, radius_m);
+        // In coordinates divided by the radii all surface is within a sphere, which an eye above it sees in a
+        // cone, wherever it looks.
+        let radii_m = self.ellipsoid.radii_m();
+        let eye = self.eye_ecef_m / radii_m;
+        let highest = 1.0 + height_m / radii_m.min_element();
+        let sine = highest / eye.length();
+        if self.parallel || sine >= 1.0 {
+            return window;
+        }
+        let from_ndc = DMat3::from_diagonal(radii_m.recip()) * self.rays_from_ndc();
+        let below = Window::of_cone(&from_ndc, -eye.normalize(), (1.0 - sine * sine).sqrt());
+        window.common(below)
+    }
+
+    /// From points x, y, 1 of a perspective's picture to lines of sight, of which the view axis has length one.
+    pub(crate) fn rays_from_ndc(&self) -> DMat3 {
+        let rows = self.clip_from_relative.transpose();
+        let rows = [rows.x_axis, rows.y_axis, rows.w_axis].map(|row| row.xyz().to_array());
+        DMat3::from_cols_array_2d(&rows).transpose().inverse()
     }
 
     /// Lower bound, metres, of the distance from the eye to visible surface in `bounds`.

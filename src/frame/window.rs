@@ -1,6 +1,6 @@
 //! Rectangles of the picture that hold what is drawn.
 
-use glam::{DMat4, DVec2, DVec3, DVec4, UVec2, Vec4Swizzles as _};
+use glam::{DMat3, DMat4, DVec2, DVec3, DVec4, UVec2, Vec4Swizzles as _};
 
 /// A rectangle in normalised device coordinates, −1 … 1 across the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,6 +33,31 @@ impl Window {
                 max: DVec2::new(x.1, y.1),
             },
             _ => Self::FULL,
+        }
+    }
+
+    /// What a cone about the eye takes of the picture. `from_ndc` makes lines of sight of points x, y, 1 of the
+    /// picture; the cone holds those whose angle with the unit vector `axis` is at most acos `least_cos`, which
+    /// is not negative.
+    ///
+    /// `axis` · v − `least_cos` |v| is concave in x and y, so that the cone takes an interval of each.
+    pub(crate) fn of_cone(from_ndc: &DMat3, axis: DVec3, least_cos: f64) -> Self {
+        let [right, up, ahead] = [from_ndc.x_axis, from_ndc.y_axis, from_ndc.z_axis];
+        let spans = [(right, up), (up, right)].map(|(along, across)| {
+            // By how much the cone holds the best point of a line across the picture.
+            let held = |at: f64| {
+                let start = ahead + along * at;
+                let best = start + across * innermost(start, across, axis, least_cos);
+                axis.dot(best) - least_cos * best.length()
+            };
+            interval(held)
+        });
+        match spans {
+            [Some(x), Some(y)] => Self {
+                min: DVec2::new(x.0, y.0),
+                max: DVec2::new(x.1, y.1),
+            },
+            _ => Self::EMPTY,
         }
     }
 
@@ -124,10 +149,67 @@ fn tangents(row: DVec4, w_row: DVec4, middle_m: DVec3, radius_m: f64) -> Option<
     Some(((linear - root) / quadratic, (linear + root) / quadratic))
 }
 
+/// Where, −1 … 1, `axis` · v − `least_cos` |v| is greatest on the line v = `start` + k `along`.
+fn innermost(start: DVec3, along: DVec3, axis: DVec3, least_cos: f64) -> f64 {
+    let squared = along.length_squared();
+    let rise = axis.dot(along);
+    // With u from the foot of the line's perpendicular, |v|² = u² `squared` + `aside`.
+    let foot = -start.dot(along) / squared;
+    let aside = (start + along * foot).length_squared();
+    let steepest = least_cos * least_cos * squared - rise * rise;
+    if steepest <= 0.0 {
+        return rise.signum();
+    }
+    let from_foot = rise * (aside / (squared * steepest)).sqrt();
+    (foot + from_foot).clamp(-1.0, 1.0)
+}
+
+/// Bisections of half the picture: finer than its pixels by far.
+const BISECTIONS: u32 = 24;
+
+/// Where, −1 … 1, a concave function is not negative, or a little more; none if nowhere.
+fn interval(function: impl Fn(f64) -> f64) -> Option<(f64, f64)> {
+    let (mut low, mut high) = (-1.0, 1.0);
+    // To where it is greatest, or first found not to be negative.
+    let mut inside = [-1.0, 1.0].into_iter().find(|&at| function(at) >= 0.0);
+    for _ in 0..2 * BISECTIONS {
+        if inside.is_some() {
+            break;
+        }
+        let (left, right) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
+        let (at_left, at_right) = (function(left), function(right));
+        inside = if at_left >= 0.0 {
+            Some(left)
+        } else {
+            (at_right >= 0.0).then_some(right)
+        };
+        if at_left < at_right {
+            low = left;
+        } else {
+            high = right;
+        }
+    }
+    let inside = inside?;
+    let end = |outermost: f64| {
+        if function(outermost) >= 0.0 {
+            return outermost;
+        }
+        let (mut held, mut missed) = (inside, outermost);
+        for _ in 0..BISECTIONS {
+            let middle = 0.5 * (held + missed);
+            if function(middle) >= 0.0 {
+                held = middle;
+            } else {
+                missed = middle;
+            }
+        }
+        missed
+    };
+    Some((end(-1.0), end(1.0)))
+}
+
 #[cfg(test)]
 mod tests {
-    use glam::DMat3;
-
     use super::*;
 
     /// A lens that is off its middle, turned about all axes.
@@ -171,6 +253,44 @@ mod tests {
             assert!(slack.min_element() > -1e-12, "{window:?} {seen:?}");
             assert!(slack.max_element() < 1e-3, "{window:?} {seen:?}");
         }
+    }
+
+    /// Seen at a slant, beside and behind the eye.
+    #[test]
+    fn windows_hold_cones_closely() {
+        let lens = lens();
+        let rows = lens.transpose();
+        let rows = [rows.x_axis, rows.y_axis, rows.w_axis].map(|row| row.xyz().to_array());
+        let from_ndc = DMat3::from_cols_array_2d(&rows).transpose().inverse();
+        let mut cut = 0;
+        for step in 0..300 {
+            let turn = f64::from(step);
+            let axis = from_ndc * DVec3::new(3.0 * turn.sin(), 2.0 * (1.7 * turn).cos(), 1.0);
+            let axis = axis.normalize() * if step % 5 == 0 { -1.0 } else { 1.0 };
+            let least_cos = (0.1 + 0.0047 * turn).cos();
+            let window = Window::of_cone(&from_ndc, axis, least_cos);
+            let mut seen = Window::EMPTY;
+            for x in -100..=100 {
+                for y in -100..=100 {
+                    let ndc = DVec2::new(f64::from(x), f64::from(y)) / 100.0;
+                    let ray = from_ndc * ndc.extend(1.0);
+                    if axis.dot(ray) >= least_cos * ray.length() {
+                        seen = seen.joined(Window { min: ndc, max: ndc });
+                    }
+                }
+            }
+            if seen == Window::EMPTY {
+                let size = window.max - window.min;
+                assert!(size.min_element() < 0.1, "{step}: {window:?}");
+                continue;
+            }
+            let slack = (seen.min - window.min).min(window.max - seen.max);
+            assert!(slack.min_element() >= 0.0, "{step}: {window:?} {seen:?}");
+            // Between the points that were asked.
+            assert!(slack.max_element() < 0.1, "{step}: {window:?} {seen:?}");
+            cut += u32::from(!window.is_full());
+        }
+        assert!(cut > 100, "{cut} were smaller than the picture");
     }
 
     #[test]

@@ -6,7 +6,7 @@
 use glam::DVec3;
 
 /// Steps of the integer part in a metre.
-const STEPS_PER_M: f64 = 128.0;
+pub(crate) const STEPS_PER_M: f64 = 128.0;
 /// Bits of the fraction below a step.
 const FRACTION_BITS: u32 = 10;
 const UNITS_PER_M: f64 = STEPS_PER_M * (1 << FRACTION_BITS) as f64;

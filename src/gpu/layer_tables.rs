@@ -107,19 +107,25 @@ impl LayerTables {
         }
     }
 
-    /// Planes of each layer.
-    pub(crate) fn planes(&self) -> Vec<Planes> {
-        let layers = self.layering.layers.iter();
-        let ordered = layers.map(|layer| Planes::new(layer.code.planes, self.mantissa));
+    /// Planes of each layer, with so many bits of checks in those of the ids.
+    pub(crate) fn planes(&self, joined: &[u32]) -> Vec<Planes> {
+        let layers = self.layering.layers.iter().zip(joined);
+        let ordered = layers
+            .map(|(layer, &joined)| Planes::new(layer.code.planes, self.mantissa).joined(joined));
         let mixture = self.layering.mixture.iter();
         ordered
             .chain(mixture.map(|_| Planes::of_weights(self.mixed_mantissa)))
             .collect()
     }
 
-    /// How each layer is resolved that plain colours do for.
-    pub(crate) fn resolved_by(&self) -> Vec<Key> {
-        let ordered = self.tables.iter().map(|table| Key::Resolve(table.key));
+    /// How each layer is resolved that plain colours do for, with so many bits of checks in the planes of ids.
+    pub(crate) fn resolved_by(&self, joined: &[u32]) -> Vec<Key> {
+        let ordered = self.tables.iter().zip(joined).map(|(table, &joined)| {
+            Key::Resolve(ResolveKey {
+                code: table.key.code.joined(joined),
+                ..table.key
+            })
+        });
         let mixture = self.layering.mixture.iter();
         ordered
             .chain(mixture.map(|_| Key::ResolveMixture))
@@ -133,6 +139,19 @@ impl LayerTables {
             CountTechnique::Winding => mixture.scale(most, self.mixed_mantissa),
             CountTechnique::Stencil => Some(mixture.stencil_scale(self.mixed_mantissa)),
         }
+    }
+
+    /// With how many bits of the check the sums of a layer fit into one plane, if `most` bounds their absolute
+    /// values for so many; 0 if that is not proven.
+    pub(crate) fn joined(&self, layer: usize, most: impl Fn(u32) -> f64) -> u32 {
+        let summed = self.layering.technique == CountTechnique::Winding;
+        // Styles are resolved from planes that each hold what they hold.
+        if !summed || self.styles[layer].is_some() {
+            return 0;
+        }
+        let limit = self.mantissa.limit() as f64;
+        let mut bits = self.layering.layers[layer].code.joined_bits();
+        bits.find(|&bits| most(bits) < limit).unwrap_or(0)
     }
 
     /// Whether sums of at most `drawn[layer]` are exact.

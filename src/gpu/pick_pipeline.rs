@@ -1,5 +1,7 @@
 //! Asking the counted layers of a view about one pixel; compiled when first asked.
 
+use std::sync::OnceLock;
+
 use glam::UVec2;
 use wgpu::util::BufferInitDescriptor;
 
@@ -21,7 +23,10 @@ pub(crate) struct AnswerHead {
 pub(crate) const IDS_AT: u64 = size_of::<AnswerHead>() as u64;
 
 pub(crate) struct PickPipeline {
-    pipeline: wgpu::ComputePipeline,
+    layout: wgpu::PipelineLayout,
+    module: wgpu::ShaderModule,
+    /// By bits of checks in the plane of ids, as in [`LayerTarget::joined`].
+    made: [OnceLock<wgpu::ComputePipeline>; 8],
     answer_layout: wgpu::BindGroupLayout,
 }
 
@@ -47,18 +52,28 @@ impl PickPipeline {
             label: Some("globefill pick"),
             source: wgpu::ShaderSource::Wgsl(shaders::pick(sample_count).into()),
         });
-        let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-            label: Some("globefill pick"),
-            layout: Some(&pipeline_layout),
-            module: &module,
-            entry_point: Some("cs_pick"),
-            compilation_options: Default::default(),
-            cache: None,
-        });
         Self {
-            pipeline,
+            layout: pipeline_layout,
+            module,
+            made: Default::default(),
             answer_layout,
         }
+    }
+
+    fn pipeline(&self, device: &wgpu::Device, joined: u32) -> &wgpu::ComputePipeline {
+        self.made[joined as usize].get_or_init(|| {
+            device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: Some("globefill pick"),
+                layout: Some(&self.layout),
+                module: &self.module,
+                entry_point: Some("cs_pick"),
+                compilation_options: wgpu::PipelineCompilationOptions {
+                    constants: &[("JOINED", joined.into())],
+                    ..Default::default()
+                },
+                cache: None,
+            })
+        })
     }
 
     /// Records the question; returns the buffer that will hold the ids from [`IDS_AT`] on.
@@ -92,9 +107,9 @@ impl PickPipeline {
             label: Some("globefill pick"),
             timestamp_writes: None,
         });
-        pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(1, &group, &[]);
         for layer in layers {
+            pass.set_pipeline(self.pipeline(device, layer.joined));
             pass.set_bind_group(0, &layer.resolve_group, &[]);
             pass.dispatch_workgroups(1, 1, 1);
         }

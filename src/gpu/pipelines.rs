@@ -182,7 +182,7 @@ impl Pipelines {
                 projection,
             } => {
                 let mut recipe = self.volume_recipe(input, vertex_entry(input), projection);
-                recipe.constants.push(planes.constant());
+                recipe.constants.extend(planes.constants());
                 recipe.fragment = Some(self.planes_entry("fs_count"));
                 recipe.targets = self.targets(planes, Some(ADD), wgpu::ColorWrites::ALL);
                 let format = match projection {
@@ -345,7 +345,7 @@ impl Pipelines {
 
     fn cover_recipe(&self, input: Input, planes: Planes, projection: Projection) -> Recipe<'_> {
         let mut recipe = self.volume_recipe(input, cover_entry(input), projection);
-        recipe.constants.push(planes.constant());
+        recipe.constants.extend(planes.constants());
         let blend = planes.weights.then_some(ADD);
         recipe.targets = self.targets(planes, blend, wgpu::ColorWrites::ALL);
         recipe

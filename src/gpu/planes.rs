@@ -9,6 +9,8 @@ pub(crate) struct Planes {
     pub half: bool,
     /// Whether weights of a mixture are summed, not codes.
     pub weights: bool,
+    /// Bits of a check that is summed in one plane with its id; 0 for planes of their own.
+    pub joined: u32,
 }
 
 impl Planes {
@@ -17,6 +19,17 @@ impl Planes {
             count,
             half: mantissa == Mantissa::Half,
             weights: false,
+            joined: 0,
+        }
+    }
+
+    /// The same with so many bits of the check in the plane of the id.
+    pub(crate) fn joined(self, joined: u32) -> Self {
+        let count = if joined > 0 { 1 } else { self.count };
+        Self {
+            count,
+            joined,
+            ..self
         }
     }
 
@@ -28,9 +41,12 @@ impl Planes {
         }
     }
 
-    /// The override of extrude.wgsl.
-    pub(crate) fn constant(self) -> (&'static str, f64) {
-        ("WEIGHTS", u8::from(self.weights).into())
+    /// The overrides of extrude.wgsl.
+    pub(crate) fn constants(self) -> [(&'static str, f64); 2] {
+        [
+            ("WEIGHTS", u8::from(self.weights).into()),
+            ("JOINED", self.joined.into()),
+        ]
     }
 
     /// Formats of the targets: one with all planes, or one each where samples are many (32-bit

@@ -50,6 +50,8 @@ pub(crate) struct Targets {
 /// Winding planes of one layer.
 pub(crate) struct LayerTarget {
     pub planes: Vec<wgpu::TextureView>,
+    /// As in [`Planes`].
+    pub joined: u32,
     pub resolve_group: wgpu::BindGroup,
     /// The pipeline that resolves it where plain colours do.
     pub resolved_by: Key,
@@ -83,14 +85,16 @@ impl Targets {
                 .create_view(&wgpu::TextureViewDescriptor::default())
         };
         let attachment = wgpu::TextureUsages::RENDER_ATTACHMENT;
+        let joined: Vec<u32> = key.planes.iter().map(|planes| planes.joined).collect();
         let mixture = tables.layering.mixture.as_ref().map(|_| {
             let usage = wgpu::BufferUsages::UNIFORM;
             StreamBuffer::new(device, "globefill mixture", usage)
         });
         let layers = (0..)
             .zip(&key.planes)
-            .zip(tables.resolved_by())
+            .zip(tables.resolved_by(&joined))
             .map(|((index, planes), resolved_by)| {
+                let joined = planes.joined;
                 let formats = planes.formats(sample_count).into_iter();
                 let usage = attachment | wgpu::TextureUsages::TEXTURE_BINDING;
                 let planes: Vec<_> = formats
@@ -109,6 +113,7 @@ impl Targets {
                 LayerTarget {
                     resolve_group: resolve_group(device, layout, sample_count, &buffers, &planes),
                     planes,
+                    joined,
                     resolved_by,
                 }
             })

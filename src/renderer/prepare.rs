@@ -5,7 +5,7 @@ use glam::UVec2;
 use super::{MeshId, Renderer, Resident, windows::layer_window};
 use crate::{
     error::RendererError,
-    frame::code::PlaneSums,
+    frame::code::{PlaneSums, joined_number},
     frame::edge_draws::EdgeWants,
     frame::layer_set::LayerSet,
     frame::layers::{Counting, Styled},
@@ -67,11 +67,13 @@ impl Renderer {
         }
         require(self.device.features(), prepared.projection.features())?;
         self.check_styles(&selections, counting)?;
-        self.ensure_targets(view, &prepared, counting)?;
-        self.ensure_pipelines(&prepared, &selections, counting)?;
+        self.ensure_targets(view, &prepared, &chosen)?;
+        self.ensure_pipelines(&prepared, &selections, &chosen)?;
         let place_bytes = self.prepare_styles(queue, view, &prepared, &selections, counting);
         view.windows = self.windows(counting, &selections, frame.size_px)?;
         let mesh_bytes = self.upload(queue, view, selections, &chosen)?;
+        prepared.stats.joined_layers =
+            chosen.joined.iter().filter(|&&bits| bits > 0).count() as u32;
         prepared.stats.upload_bytes = chosen.table_bytes + place_bytes + mesh_bytes;
         self.fill_stats(view, &mut prepared);
         view.prepared = Some(prepared);
@@ -97,6 +99,7 @@ impl Renderer {
                 && let Some(mixture_scale) = self.mixture_scale(&selections, counting)?
             {
                 let chosen = Chosen {
+                    joined: self.joined(&selections, counting)?,
                     counting,
                     table_bytes,
                     mixture_scale,
@@ -132,9 +135,36 @@ impl Renderer {
         {
             let mesh = self.meshes[id].level(*level);
             let draws = &selection.layers[tables.layering.layers.len()];
-            burden.add_draws(draws, mesh, sight, mixture);
+            burden.add_draws(draws, mesh, sight, |left, right| {
+                mixture.difference(left, right)
+            });
         }
         Ok(tables.mixture_scale(mixture, &burden))
+    }
+
+    /// With how many bits of checks the sums of each layer of ids are proven to fit into one plane.
+    fn joined(
+        &self,
+        selections: &[Selected],
+        counting: Counting,
+    ) -> Result<Vec<u32>, RendererError> {
+        let tables = self.layers(counting)?;
+        let most = |layer: usize, bits: u32| {
+            let mut burden = Burden::default();
+            for selected in selections {
+                let mesh = self.meshes[&selected.id].level(selected.level);
+                let draws = &selected.selection.layers[layer];
+                burden.add_draws(draws, mesh, &selected.sight, |left, right| {
+                    let [left, right] = [left, right].map(|code| joined_number(code, bits));
+                    left.abs_diff(right).into()
+                });
+            }
+            burden.most().1
+        };
+        let layers = 0..tables.layering.layers.len();
+        Ok(layers
+            .map(|layer| tables.joined(layer, |bits| most(layer, bits)))
+            .collect())
     }
 
     fn make_layers(&self, counting: Counting) -> Result<LayerTables, RendererError> {
@@ -210,6 +240,7 @@ impl Renderer {
                     slots: slots.map_or(&[], |slots| slots.slots.as_slice()),
                 };
                 let mesh = resident.level(level);
+                let sight = sight.flat_beyond(resident.longest_edges_rad[level]);
                 Ok(Selected {
                     id,
                     level,
@@ -246,14 +277,14 @@ impl Renderer {
         &self,
         view: &mut View,
         prepared: &Prepared,
-        counting: Counting,
+        chosen: &Chosen,
     ) -> Result<(), RendererError> {
-        let layers = self.layers(counting)?;
+        let layers = self.layers(chosen.counting)?;
         let key = TargetsKey {
             size_px: prepared.frame.size_px,
-            planes: layers.planes(),
+            planes: layers.planes(&chosen.joined),
             copied: prepared.copied(),
-            layer_revision: (self.revision, counting),
+            layer_revision: (self.revision, chosen.counting),
         };
         if view
             .targets
@@ -272,11 +303,11 @@ impl Renderer {
         &mut self,
         prepared: &Prepared,
         selections: &[Selected],
-        counting: Counting,
+        chosen: &Chosen,
     ) -> Result<(), RendererError> {
-        let layers = self.layers(counting)?;
-        let resolved_by = layers.resolved_by();
-        for (index, planes) in layers.planes().into_iter().enumerate() {
+        let layers = self.layers(chosen.counting)?;
+        let resolved_by = layers.resolved_by(&chosen.joined);
+        for (index, planes) in layers.planes(&chosen.joined).into_iter().enumerate() {
             let uses = |has: fn(&LayerDraws) -> bool| {
                 selections
                     .iter()
@@ -445,6 +476,8 @@ fn logarithm(sight: &Sight) -> Option<[f32; 4]> {
 /// How a frame is counted.
 struct Chosen {
     counting: Counting,
+    /// By layer of ids: bits of checks in their plane.
+    joined: Vec<u32>,
     /// Uploaded for the tables of its layers.
     table_bytes: u64,
     /// Units of weight per optical depth.

@@ -2,7 +2,6 @@
 
 use glam::DVec2;
 
-use super::Mixture;
 use crate::{
     fill_mesh::FillMesh, frame::select::LayerDraws, frame::sight::Sight, frame::window::Window,
 };
@@ -11,6 +10,11 @@ use crate::{
 const TILES: usize = 32;
 /// Rows have one more, which takes what ends at the window's edge.
 const ROW: usize = TILES + 1;
+
+/// Tiles are no smaller than a share of this, of a picture that is 2 wide: a pixel or more, of most pictures.
+const LEAST_SIZE: f64 = 0.05;
+/// How far, in tiles, what is drawn may reach beyond a window: more than 1/256 px.
+const ROOM: f64 = 1e-2;
 
 /// Faces that may lie over each other, with the windows that hold them.
 #[derive(Clone, Debug, Default)]
@@ -39,27 +43,30 @@ impl Burden {
         }
     }
 
-    /// Adds what is drawn of a mesh in the layer of a mixture.
+    /// Adds what is drawn of a mesh in a layer. `difference` tells what a face adds between two codes.
     pub(crate) fn add_draws(
         &mut self,
         draws: &LayerDraws,
         mesh: &FillMesh,
         sight: &Sight,
-        mixture: &Mixture,
+        difference: impl Fn(u32, u32) -> f64,
     ) {
         let code_of = |side: Option<u32>| side.map_or(0, |piece| draws.codes[piece as usize + 1]);
         let mut add = |bounds, faces, depth| {
-            if !sight.outside_side_plane(bounds) {
+            if !sight.outside_side_plane(bounds) && !sight.is_flat_over(bounds) {
                 self.add(sight.window_of(bounds, 0.0), faces, depth);
             }
         };
-        for chunk in &mesh.cap_chunks {
-            let depth = mixture.difference(code_of(Some(chunk.piece)), 0);
-            add(&chunk.bounds, 2 * chunk.triangle_count as usize, depth);
+        for run in &draws.caps {
+            for chunk in run.chunks(mesh) {
+                let depth = difference(code_of(Some(chunk.piece)), 0);
+                let faces = chunk.triangle_count as usize * run.instances().len();
+                add(&chunk.bounds, faces, depth);
+            }
         }
         let weight = |arc: usize| {
             let arc = &mesh.arcs[arc];
-            mixture.difference(code_of(arc.left), code_of(arc.right))
+            difference(code_of(arc.left), code_of(arc.right))
         };
         for (index, arc) in mesh.arcs.iter().enumerate() {
             let faces = 2 * (arc.vertex_count as usize - 1);
@@ -77,18 +84,18 @@ impl Burden {
         let greatest = |at: DVec2, share: &Share| at.max(share.corners[1]);
         let from = self.shares.iter().fold(DVec2::INFINITY, least);
         let to = self.shares.iter().fold(DVec2::NEG_INFINITY, greatest);
-        let per_tile = TILES as f64 / (to - from).max(DVec2::splat(1e-6));
+        let per_tile = TILES as f64 / (to - from).max(DVec2::splat(LEAST_SIZE));
         // By tile: what begins there less what has ended, along rows and columns alike.
         let mut changes = vec![[DVec2::ZERO; ROW]; ROW];
         for share in &self.shares {
-            // With some room for rounding.
+            // Rasterisers move vertices a little.
             let tile = |at: f64, room: f64| ((at + room).max(0.0) as usize).min(TILES - 1);
             let [left, below] = ((share.corners[0] - from) * per_tile)
                 .to_array()
-                .map(|at| tile(at, -1e-3));
+                .map(|at| tile(at, -ROOM));
             let [right, above] = ((share.corners[1] - from) * per_tile)
                 .to_array()
-                .map(|at| tile(at, 1e-3) + 1);
+                .map(|at| tile(at, ROOM) + 1);
             let added = DVec2::new(share.faces, share.faces * share.depth);
             changes[below][left] += added;
             changes[below][right] -= added;

@@ -9,6 +9,7 @@ use crate::{
     Ellipsoid, FillStyle, LonLat, MeshOptions,
     countries::Dataset,
     frame::{
+        beyond::longest_edge_rad,
         code::Mantissa,
         layers::{Counting, Layering, Styled},
         refine::{BOTTOM, TOP},
@@ -66,6 +67,10 @@ impl Boundary {
     fn add(&mut self, triangle: [Corner; 3], weight: i64) {
         for side in 0..3 {
             let (from, to) = (triangle[side], triangle[(side + 1) % 3]);
+            // Where volumes have no height walls have none.
+            if from == to {
+                continue;
+            }
             if from < to {
                 *self.0.entry((from, to)).or_default() += weight;
             } else {
@@ -77,7 +82,13 @@ impl Boundary {
 
 /// The signed boundary of what a layer draws. A patch has the boundary of the wall it replaces
 /// (tested in refine.rs), so that wall stands for it.
-fn boundary(mesh: &FillMesh, draws: &LayerDraws, patch: &Patch) -> Boundary {
+fn boundary(mesh: &FillMesh, draws: &LayerDraws, patch: &Patch, sight: &Sight) -> Boundary {
+    let corner = |point_m: DVec3, drawn: u32| {
+        let is_flat = sight
+            .beyond
+            .is_some_and(|beyond| beyond.holds_point(point_m));
+        corner(point_m, if is_flat { BOTTOM } else { drawn })
+    };
     let mut boundary = Boundary::default();
     let chunks = draws.caps.iter().flat_map(|run| run.chunks(mesh));
     for chunk in chunks {
@@ -124,6 +135,17 @@ fn boundary(mesh: &FillMesh, draws: &LayerDraws, patch: &Patch) -> Boundary {
     boundary
 }
 
+/// How many triangles of shown pieces are left out since their volumes have no height there.
+fn left_flat(mesh: &FillMesh, draws: &LayerDraws, sight: &Sight) -> usize {
+    let drawn: usize = draws.caps.iter().map(|run| run.triangles.len()).sum();
+    let unseen = mesh.cap_chunks.iter().filter(|chunk| {
+        draws.codes[chunk.piece as usize + 1] != 0 && sight.is_flat_over(&chunk.bounds)
+    });
+    let left: usize = unseen.map(|chunk| chunk.triangle_count as usize).sum();
+    assert!(drawn + left <= mesh.cap_triangles.len());
+    left
+}
+
 /// The law: after culling, layering and refinement the signed boundary of everything drawn is
 /// zero, but for edges outside a side plane of the frustum, which no pixel sees.
 #[test]
@@ -138,7 +160,7 @@ fn what_is_drawn_is_closed() {
         styles: &styles,
     }];
     let layering = Layering::assign(&styled, Counting::Winding, Mantissa::Single).expect("fits");
-    let (mut culled, mut refined) = (0, 0);
+    let (mut culled, mut refined, mut flat) = (0, 0, 0);
     for (at, height_m, field_of_view_deg) in [
         (LonLat::new(10.0, 50.0), 2e7, 60.0),
         (LonLat::new(179.9, 66.0), 3e6, 60.0),
@@ -146,12 +168,18 @@ fn what_is_drawn_is_closed() {
         (LonLat::new(13.0, 48.5), 5e4, 60.0),
         (LonLat::new(6.8, 49.2), 9_010.0, 60.0),
     ] {
-        let sight = looking_down(at, height_m, field_of_view_deg, mesh.sag_m);
+        let sight = looking_down(at, height_m, field_of_view_deg, mesh.sag_m)
+            .flat_beyond(longest_edge_rad(&mesh));
         let selection = Selection::of(&mesh, layering.coded(0), &sight, &EdgeWants::default());
         culled += selection.fills_culled;
+        flat += selection
+            .layers
+            .iter()
+            .map(|draws| left_flat(&mesh, draws, &sight))
+            .sum::<usize>();
         refined += selection.patch.chords.len();
         for draws in &selection.layers {
-            let open = boundary(&mesh, draws, &selection.patch).0;
+            let open = boundary(&mesh, draws, &selection.patch, &sight).0;
             for ((from, to), sum) in open {
                 let ends = [from, to].map(|(bits, drawn)| {
                     let point_m = DVec3::from_array(bits.map(f64::from_bits));
@@ -173,7 +201,7 @@ fn what_is_drawn_is_closed() {
         }
     }
     assert!(
-        culled > 0 && refined > 0,
-        "{culled} culled, {refined} refined"
+        culled > 0 && refined > 0 && flat > 5_000,
+        "{culled} culled, {refined} refined, {flat} left out as flat"
     );
 }
