@@ -7,6 +7,7 @@ mod browser;
 
 use std::{
     f64::consts::FRAC_PI_4,
+    path::Path,
     time::{Duration, Instant},
 };
 
@@ -21,7 +22,8 @@ use serde_json::json;
 
 use browser::{Adapter, Browser, Server};
 
-const PAGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/target/web");
+/// Tests run in the package's root.
+const PAGE: &str = "target/web";
 const EYE: (f64, f64, f64) = (10.4, 51.2, 9e5);
 /// The viewer's.
 const FOV_DEG: f64 = 45.0;
@@ -196,7 +198,11 @@ fn files_good_and_bad_are_opened_and_a_picture_is_downloaded() {
     std::fs::write(&bad, "{ not json").unwrap();
     choose(&mut browser, &bad.to_string_lossy());
     browser.wait_for_line(&["errors=1", "loading=0", "shown=2"]);
-    choose(&mut browser, &format!("{PAGE}/zones.geojson"));
+    let good = Path::new(PAGE)
+        .join("zones.geojson")
+        .canonicalize()
+        .unwrap();
+    choose(&mut browser, &good.to_string_lossy());
     browser.wait_for_line(&["errors=1", "loading=0", "shown=3"]);
     assert_eq!(browser.complaints, [""; 0]);
 }
