@@ -7,7 +7,8 @@
 //!
 //! Drag turns the globe; the wheel zooms to the pointer; right or ctrl drag tilts; arrows or WASD move,
 //! plus and minus zoom, N or R turns north up, Home goes home, space plays. `viewer.rs` is the state, without
-//! window or GPU; `graphics.rs` draws it; `app.rs` is the window.
+//! window or GPU; `graphics.rs` draws it; `app.rs` is the window, `platform/` what differs
+//! between desktops and browsers.
 
 mod app;
 mod canvas;
@@ -19,6 +20,7 @@ mod layers;
 mod orbit;
 mod panel;
 mod platform;
+mod screen;
 mod viewer;
 
 #[cfg(test)]
