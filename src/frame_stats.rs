@@ -17,7 +17,7 @@ pub struct FrameStats {
     pub layers: u32,
     /// Layers that are resolved with patterns, strokes or fades: 0 where plain colours say all.
     pub styled_layers: u32,
-    /// Layers whose sums take one channel a pixel instead of two or four, since this frame's are proven to fit.
+    /// Layers whose sums take one channel a pixel instead of two, since this frame's are proven to fit.
     pub joined_layers: u32,
     /// Counting passes that `count` records: one for each layer of which anything is drawn.
     pub passes: u32,
