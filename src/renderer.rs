@@ -1,5 +1,6 @@
 //! The façade: what a host calls.
 
+mod chosen;
 mod picking;
 mod prepare;
 mod sensors;
