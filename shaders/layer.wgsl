@@ -121,8 +121,8 @@ fn fill_at(pixel: vec2<i32>, sample: u32) -> u32 {
         let near = clamp(pixel + vec2<i32>(way) - 1, vec2(0), last);
         fill = fill_of(load_planes(near, sample));
         step += 1u;
-        continuing {
-            break if fill != INVALID || step == 9u;
+        if fill != INVALID || step == 9u {
+            break;
         }
     }
     return select(fill, NONE, fill == INVALID);

@@ -6,9 +6,8 @@
 
 // How much of a pixel lies within 0 ... 1 of a coordinate that changes by `width` across it.
 fn inside(at: f32, width: f32) -> f32 {
-    let narrow = saturate(min(at, 1.0 - at) / max(width, 1e-9) + 0.5);
-    let wide = max(min(at + 0.5 * width, 1.0) - max(at - 0.5 * width, 0.0), 0.0) / max(width, 1.0);
-    return select(narrow, wide, width > 1.0);
+    let pixels = 1.0 / max(width, 1e-9);
+    return clamp(at * pixels, -0.5, 0.5) + clamp((1.0 - at) * pixels, -0.5, 0.5);
 }
 
 // An image in its place; v runs down.
@@ -75,18 +74,21 @@ fn sampled(filtering: sampler, at: vec2<f32>, layer: u32, mapped: Mapped) -> vec
     let longer = max(across.x, across.y);
     // The parallelogram of both sides has the area of longer times shorter.
     let area = abs(right.x * down.y - right.y * down.x) * size.x * size.y;
-    // As many as one side is longer than the other, but no more than it has texels.
+    // As often as the shorter side goes into the longer, but no more than that has texels.
     let most = clamp(sqrt(longer), 1.0, MOST_TAPS);
-    let taps = floor(clamp(longer / max(area, 1e-12) + 0.5, 1.0, most));
-    let level = sharper(0.5 * log2_of(max(longer, 1e-12)) - log2_of(taps));
+    let taps = floor(clamp(longer / max(area, 1e-12), 1.0, most));
+    // Texels as long as the mean of the shorter side and the way between samples, by ratio: neither is more
+    // than 1.41 times as long or as short, but for ways that are longer still.
+    let texel = max(area, 0.5 * longer / taps) / taps;
+    let level = sharper(0.5 * log2_of(max(texel, 1e-12)));
     var sum = vec4<f32>(0.0);
     var tap = 0.5;
-    // There is one at least: asked for afterwards, software does not take one too many.
+    // There is one at least: asked for at the end, and not in a `continuing`, software takes none too many.
     loop {
         sum += textureSampleLevel(images, filtering, at + (tap / taps - 0.5) * long, layer, level);
-        continuing {
-            tap += 1.0;
-            break if tap >= taps;
+        tap += 1.0;
+        if tap >= taps {
+            break;
         }
     }
     return sum / taps;

@@ -309,12 +309,12 @@ impl Renderer {
     pub fn resolve(&self, view: &View, pass: &mut wgpu::RenderPass<'_>) {
         if let (Some(targets), Some(prepared)) = (&view.targets, &view.prepared) {
             for index in prepared.shown.iter() {
-                let layer = &targets.layers[index];
-                pass.set_bind_group(0, &layer.resolve_group, &[]);
-                if !self.resolve_styled(view, pass, index)
+                let target = &targets.layers[index];
+                pass.set_bind_group(0, &target.resolve_group, &[]);
+                if !self.resolve_styled(view, pass, index, target)
                     && let Some(draw) = view.windows.get(index).copied().flatten()
                 {
-                    pass.set_pipeline(self.pipelines.get(layer.resolved_by));
+                    pass.set_pipeline(self.pipelines.get(target.resolved_by));
                     let (vertex, instance) = (draw.vertex, draw.instance);
                     pass.draw(vertex..vertex + 4, instance..instance + 1);
                 }

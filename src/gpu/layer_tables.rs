@@ -88,8 +88,8 @@ impl LayerTables {
         })
     }
 
-    /// The pipeline that resolves a layer with styles: they are read as uniforms where they and all
-    /// places are few.
+    /// The pipeline that resolves a layer with styles from planes of their own: they are read as uniforms
+    /// where they and all places are few.
     pub(crate) fn style_key(
         &self,
         device: &wgpu::Device,
@@ -145,8 +145,7 @@ impl LayerTables {
     /// values for so many; 0 if that is not proven.
     pub(crate) fn joined(&self, layer: usize, most: impl Fn(u32) -> f64) -> u32 {
         let summed = self.layering.technique == CountTechnique::Winding;
-        // Styles are resolved from planes that each hold what they hold.
-        if !summed || self.styles[layer].is_some() {
+        if !summed {
             return 0;
         }
         let limit = self.mantissa.limit() as f64;

@@ -20,6 +20,14 @@ pub(crate) struct StyleKey {
     pub lens: LensKind,
 }
 
+impl StyleKey {
+    /// The same with so many bits of the check in the plane of the id.
+    pub(crate) fn joined(self, joined: u32) -> Self {
+        let code = self.code.joined(joined);
+        Self { code, ..self }
+    }
+}
+
 /// Layouts, the shader modules and the pipelines made so far.
 pub(crate) struct StylePipelines {
     options: RendererOptions,

@@ -177,19 +177,20 @@ impl StyleView {
         Some(styled.arrays.len() as u32)
     }
 
-    /// Draws a layer whose table and sums are bound as group 0.
+    /// Draws a layer whose table and sums are bound as group 0, so many bits of the check in the plane of the id.
     pub(crate) fn resolve(
         &self,
         pipelines: &StylePipelines,
         images: &ImageArrays,
         pass: &mut wgpu::RenderPass<'_>,
         layer: usize,
+        joined: u32,
     ) {
         let styled = self.layers.get(layer).and_then(Option::as_ref);
         let (Some(styled), Some(surface)) = (styled, self.surface.group()) else {
             return;
         };
-        let Some(pipeline) = pipelines.get(styled.key) else {
+        let Some(pipeline) = pipelines.get(styled.key.joined(joined)) else {
             return;
         };
         pass.set_pipeline(pipeline);

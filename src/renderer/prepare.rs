@@ -67,7 +67,7 @@ impl Renderer {
         self.check_styles(&selections, counting)?;
         self.ensure_targets(view, &prepared, &chosen)?;
         self.ensure_pipelines(&prepared, &selections, &chosen)?;
-        let place_bytes = self.prepare_styles(queue, view, &prepared, &selections, counting);
+        let place_bytes = self.prepare_styles(queue, view, &prepared, &selections, &chosen);
         view.windows = self.windows(counting, &selections, frame.size_px)?;
         let mesh_bytes = self.upload(queue, view, selections, &chosen)?;
         prepared.stats.joined_layers =

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use glam::{DVec2, UVec2};
 
-use super::{MeshId, Renderer, Resident, prepare::Selected, windows::layer_window};
+use super::{MeshId, Renderer, Resident, chosen::Chosen, prepare::Selected, windows::layer_window};
 use crate::{
     error::{RendererError, StyleError},
     extents::Extents,
@@ -20,6 +20,7 @@ use crate::{
     gpu::layer_tables::LayerTables,
     gpu::style_pipelines::StylePipelines,
     gpu::style_view::{StyleFrame, StyleView},
+    gpu::targets::LayerTarget,
     hatch::Hatch,
     image::{Image, ImageId},
     image_fill::{ImageFill, Placement},
@@ -171,8 +172,9 @@ impl Renderer {
         view: &mut View,
         prepared: &Prepared,
         selections: &[Selected],
-        counting: Counting,
+        chosen: &Chosen,
     ) -> u64 {
+        let counting = chosen.counting;
         let tables = &self.layers[counting as usize];
         let styled = |tables: &&LayerTables| tables.styles.iter().any(Option::is_some);
         let tables = tables.as_ref().and_then(|tables| tables.as_ref().ok());
@@ -193,9 +195,10 @@ impl Renderer {
             let edges = EdgePipelines::new(device, &self.pipelines, surface_layout, self.options);
             pipelines.edges = Some(edges);
         }
-        for (layer, table) in tables.styles.iter().enumerate() {
+        for (layer, (table, &joined)) in tables.styles.iter().zip(&chosen.joined).enumerate() {
             if let Some(table) = table {
-                pipelines.ensure(device, tables.style_key(device, layer, table, sight.kind));
+                let key = tables.style_key(device, layer, table, sight.kind);
+                pipelines.ensure(device, key.joined(joined));
             }
         }
         let frame = &prepared.frame;
@@ -249,6 +252,7 @@ impl Renderer {
         view: &View,
         pass: &mut wgpu::RenderPass<'_>,
         layer: usize,
+        target: &LayerTarget,
     ) -> bool {
         let (Some(styles), Some(pipelines), Some(images)) =
             (&view.styles, &self.style_pipelines, &self.images)
@@ -256,7 +260,7 @@ impl Renderer {
             return false;
         };
         let styled = styles.draws_of(layer).is_some();
-        styles.resolve(pipelines, images, pass, layer);
+        styles.resolve(pipelines, images, pass, layer, target.joined);
         styled
     }
 }
