@@ -28,7 +28,10 @@ const PI: f32 = 3.14159265;
 // On longitudes and latitudes, from the middle of the image. With z stretched, the latitude is the angle of
 // (radius, z): geodetic if stretched by (a/b)^2, as the normal is, geocentric if not.
 fn on_angles(placed: Placed, seen: Seen) -> Mapped {
-    let stretch = placed.u.z;
+    var stretch = sight.ellipsoid.y;
+    if needs(NEEDS_SPHERES) {
+        stretch = placed.u.z;
+    }
     let from_foot = vec3<f32>(seen.from_foot.xy, seen.from_foot.z * stretch);
     let foot = vec3<f32>(sight.foot_gradient.xy, sight.foot_gradient.z * (stretch / sight.ellipsoid.y));
     let point = foot + from_foot;
@@ -47,13 +50,19 @@ fn on_angles(placed: Placed, seen: Seen) -> Mapped {
         radius_foot * radius + foot.z * point.z,
     );
     let lon = placed.u.x + turned;
-    let angles = vec2<f32>(lon - 2.0 * PI * round(lon / (2.0 * PI)), placed.u.y + higher);
+    let angles = vec2<f32>(lon - 2.0 * PI * round(lon * (0.5 / PI)), placed.u.y + higher);
     let lon_slope = slope_of(seen, vec3<f32>(-point.y, point.x, 0.0)) / (radius * radius);
     let northward = vec3<f32>(-point.z / radius * point.xy, radius * stretch);
     let lat_slope = slope_of(seen, northward) / dot(point, point);
-    return Mapped(
-        vec2<f32>(dot(placed.v.xy, angles), dot(placed.v.zw, angles)),
-        placed.v.x * lon_slope + placed.v.y * lat_slope,
-        placed.v.z * lon_slope + placed.v.w * lat_slope,
+    var mapped = Mapped(
+        vec2<f32>(placed.v.x, placed.v.w) * angles,
+        placed.v.x * lon_slope,
+        placed.v.w * lat_slope,
     );
+    if needs(NEEDS_TURNS) {
+        mapped.uv += placed.v.yz * angles.yx;
+        mapped.u_slope += placed.v.y * lat_slope;
+        mapped.v_slope += placed.v.z * lon_slope;
+    }
+    return mapped;
 }

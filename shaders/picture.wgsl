@@ -74,22 +74,23 @@ fn sampled(filtering: sampler, at: vec2<f32>, layer: u32, mapped: Mapped) -> vec
     let longer = max(across.x, across.y);
     // The parallelogram of both sides has the area of longer times shorter.
     let area = abs(right.x * down.y - right.y * down.x) * size.x * size.y;
-    // As often as the shorter side goes into the longer, but no more than that has texels.
-    let most = clamp(sqrt(longer), 1.0, MOST_TAPS);
+    // As often as the shorter side goes into the longer, but once where that is within a texel.
+    let most = clamp(longer, 1.0, MOST_TAPS);
     let taps = floor(clamp(longer / max(area, 1e-12), 1.0, most));
+    let share = 1.0 / taps;
     // Texels as long as the mean of the shorter side and the way between samples, by ratio: neither is more
     // than 1.41 times as long or as short, but for ways that are longer still.
-    let texel = max(area, 0.5 * longer / taps) / taps;
+    let texel = max(area, 0.5 * longer * share) * share;
     let level = sharper(0.5 * log2_of(max(texel, 1e-12)));
     var sum = vec4<f32>(0.0);
     var tap = 0.5;
     // There is one at least: asked for at the end, and not in a `continuing`, software takes none too many.
     loop {
-        sum += textureSampleLevel(images, filtering, at + (tap / taps - 0.5) * long, layer, level);
+        sum += textureSampleLevel(images, filtering, at + (tap * share - 0.5) * long, layer, level);
         tap += 1.0;
         if tap >= taps {
             break;
         }
     }
-    return sum / taps;
+    return sum * share;
 }

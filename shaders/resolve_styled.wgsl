@@ -98,15 +98,19 @@ fn paint_of(style: u32, seen: Seen) -> vec4<f32> {
         return paint;
     }
     let place = styles[style].pattern.y;
-    let phase = places[place].phase;
+    var phase = MIDDLE;
     var mapped: Mapped;
     if needs(NEEDS_MAPS) {
+        phase = places[place].phase;
         mapped = on_map(places[place], seen);
     }
     if needs(NEEDS_ANGLES) && (!needs(NEEDS_MAPS) || places[place].fall.w != 0.0) {
         mapped = on_angles(places[place], seen);
     }
-    let inked = styles[style].inked;
+    var inked = paint;
+    if needs(NEEDS_HATCHES | NEEDS_INKED) {
+        inked = styles[style].inked;
+    }
     if needs(NEEDS_HATCHES) {
         paint = mix(paint, inked, ink_share(style, phase, mapped));
     }
@@ -133,7 +137,7 @@ fn color_of(fill: u32, stroke: vec4<f32>, seen: Seen, array: u32) -> vec4<f32> {
         color = stroke * styles[style].hatch.w + color * (1.0 - stroke.w);
     }
     var shown = fill != NONE;
-    if needs(NEEDS_IMAGES) {
+    if needs(NEEDS_ARRAYS) {
         shown = shown && styles[style].pattern.w == array;
     }
     return select(vec4<f32>(0.0), left_of(style, color, seen), shown);

@@ -64,9 +64,12 @@ struct Placed {
     v: vec4<f32>,
     // On a map: gradient of the nearness; w: whether on longitudes and latitudes.
     fall: vec4<f32>,
-    // u and v at G, in 2^-32: whole and fraction of each.
+    // u and v at G, in 2^-32: whole and fraction of each. On longitudes and latitudes those of the middle.
     phase: vec4<u32>,
 }
+
+// u and v of the middle of an image.
+const MIDDLE = vec4<u32>(0u, 0x80000000u, 0u, 0x80000000u);
 
 // What the edge pass wrote.
 @group(1) @binding(2) var edges: texture_2d<u32>;
@@ -86,6 +89,12 @@ const NEEDS_STROKES: u32 = 512u;
 const NEEDS_SMOOTH: u32 = 1024u;
 const NEEDS_ADDITIVE: u32 = 2048u;
 const NEEDS_MAPS: u32 = 4096u;
+// Images on a colour that is not the paper, and of several arrays.
+const NEEDS_INKED: u32 = 8192u;
+const NEEDS_ARRAYS: u32 = 16384u;
+// Images on geocentric latitudes; turned ones.
+const NEEDS_SPHERES: u32 = 32768u;
+const NEEDS_TURNS: u32 = 65536u;
 const NEEDS_HATCHES: u32 = NEEDS_LINES | NEEDS_DOTS | NEEDS_CHECKER;
 const NEEDS_IMAGES: u32 = NEEDS_TILES | NEEDS_CLAMPED | NEEDS_REPEATED;
 

@@ -348,6 +348,10 @@ mod tests {
             ("SMOOTH", table::SMOOTH),
             ("ADDITIVE", table::ADDITIVE),
             ("MAPS", table::MAPS),
+            ("INKED", table::INKED),
+            ("ARRAYS", table::ARRAYS),
+            ("SPHERES", table::SPHERES),
+            ("TURNS", table::TURNS),
         ];
         for (name, bit) in needs {
             let expected = format!("const NEEDS_{name}: u32 = {bit}u;");

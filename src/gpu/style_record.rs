@@ -24,6 +24,10 @@ pub(crate) const STROKES: Needs = 512;
 pub(crate) const SMOOTH: Needs = 1024;
 pub(crate) const ADDITIVE: Needs = 2048;
 pub(crate) const MAPS: Needs = 4096;
+pub(crate) const INKED: Needs = 8192;
+pub(crate) const ARRAYS: Needs = 16384;
+pub(crate) const SPHERES: Needs = 32768;
+pub(crate) const TURNS: Needs = 65536;
 
 /// Kinds of patterns; as in style.wgsl.
 const KIND_PLAIN: u32 = 0;
@@ -73,9 +77,11 @@ pub(crate) fn needs_of(style: &FillStyle) -> Needs {
                 Wrap::Clip | Wrap::Clamp => CLAMPED,
                 Wrap::Repeat => REPEATED,
             };
+            let turns = if image.rotation_rad == 0.0 { 0 } else { TURNS };
             match image.placement {
                 Placement::Local { .. } => wrap | MAPS,
-                Placement::Geodetic(_) | Placement::Spherical(_) => wrap | ANGLES,
+                Placement::Geodetic(_) => wrap | ANGLES | turns,
+                Placement::Spherical(_) => wrap | ANGLES | SPHERES | turns,
             }
         }
     };
@@ -110,8 +116,14 @@ impl StyleRecord {
         record
     }
 
-    pub(crate) fn is_additive(&self) -> bool {
-        self.pattern[0] & IS_ADDITIVE != 0
+    /// What the shader must be able to do for what the record holds.
+    pub(crate) fn needs(&self) -> Needs {
+        let additive = self.pattern[0] & IS_ADDITIVE != 0;
+        let inked = self.tint != [0.0; 4] && self.inked != self.paper;
+        [(additive, ADDITIVE), (inked, INKED)]
+            .into_iter()
+            .map(|(needed, bit)| if needed { bit } else { 0 })
+            .sum()
     }
 
     fn set_pattern(&mut self, style: &FillStyle, pattern: &Pattern, image: Option<ImageSlot>) {

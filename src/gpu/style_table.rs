@@ -7,7 +7,7 @@ use crate::{
     frame::placed::{PatternPlace, Placed},
     gpu::filled_buffer::FilledBuffer as _,
     gpu::image_arrays::{ImageArrays, ImageSlot},
-    gpu::style_record::{ADDITIVE, Needs, SMOOTH, StyleRecord, metres_or_pixels, needs_of},
+    gpu::style_record::{ARRAYS, Needs, SMOOTH, StyleRecord, metres_or_pixels, needs_of},
     stroke::Align,
     style::FillStyle,
 };
@@ -109,14 +109,17 @@ impl StyleTable {
         if needs == 0 {
             return None;
         }
-        if records.iter().any(StyleRecord::is_additive) {
-            needs |= ADDITIVE;
+        for record in &records {
+            needs |= record.needs();
         }
         let mut arrays: Vec<u32> = slots.iter().flatten().map(|slot| slot.array).collect();
         arrays.sort_unstable();
         arrays.dedup();
         if arrays.is_empty() {
             arrays.push(0);
+        }
+        if arrays.len() > 1 {
+            needs |= ARRAYS;
         }
         for (record, slot) in records.iter_mut().zip(slots) {
             // Whatever shows no image is drawn with the first array.

@@ -2,8 +2,8 @@
 
 use glam::DVec2;
 use globefill::{
-    Blend, CountTechnique, Fade, FillStyle, Hatch, HatchKind, Length, LonLat, Pattern, Ramp,
-    Region, Zone,
+    Blend, CountTechnique, Fade, FillStyle, Hatch, HatchKind, Image, ImageFill, Length, LonLat,
+    Pattern, Ramp, Region, Zone,
 };
 
 use crate::{
@@ -100,7 +100,7 @@ fn fills_are_laid_over_each_other_as_their_styles_say() {
     let surface = bare(&pose(PLACES[0], 1e5, 0.3), SMALL);
     let both = [1.8e7, 1.9e7].map(|radius_m| Region::from(Zone::circle(PLACES[0], radius_m)));
     let mut worst = 0.0f64;
-    // The same with a pattern whose ink is everywhere, and one without any.
+    // The same with a pattern whose ink is everywhere, one without any, and images of one colour.
     let full = |share, color| {
         Some(Pattern::Hatch(Hatch {
             kind: HatchKind::Lines,
@@ -110,13 +110,24 @@ fn fills_are_laid_over_each_other_as_their_styles_say() {
             ..Default::default()
         }))
     };
-    let patterns = [
-        (None, [0.0; 4]),
-        (full(1.0, [0.0, 1.0, 0.5, 0.4]), [0.0, 0.4, 0.2, 0.4]),
-        (full(0.0, [0.0, 1.0, 0.5, 0.4]), [0.0; 4]),
-    ];
+    let glass = Image::from_rgba8(1, 1, &[0, 255, 255, 102]).expect("an image");
     for count in [CountTechnique::Winding, CountTechnique::Stencil] {
         let mut stage = Stage::counted(gpu, built(&both), &surface, count);
+        let inserted = stage.renderer.insert_image(&gpu.queue, &glass);
+        let image = inserted.expect("a small image");
+        let shows = |opacity| {
+            Some(Pattern::Image(ImageFill {
+                opacity,
+                ..ImageFill::new(image)
+            }))
+        };
+        let patterns = [
+            (None, [0.0; 4]),
+            (full(1.0, [0.0, 1.0, 0.5, 0.4]), [0.0, 0.4, 0.2, 0.4]),
+            (full(0.0, [0.0, 1.0, 0.5, 0.4]), [0.0; 4]),
+            (shows(1.0), [0.0, 0.4, 0.4, 0.4]),
+            (shows(0.25), [0.0, 0.1, 0.1, 0.1]),
+        ];
         for (pattern, ink) in patterns {
             for pair in styles() {
                 let pair = pair.map(|style| FillStyle { pattern, ..style });
