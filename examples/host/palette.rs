@@ -16,8 +16,11 @@ const COLORS: [[u8; 3]; 8] = [
 
 const OPACITY: f32 = 0.5;
 
-/// A colour for every fill, linear RGB and alpha: no two fills that share a border have the same,
-/// unless one has eight neighbours of eight colours.
+/// Neighbours' colours are farther apart than this, as sRGB bytes, where there are enough.
+const FAR_APART: f32 = 90.0;
+
+/// A colour for every fill, linear RGB and alpha: no two fills that share a border have the same or a
+/// similar one, unless one has so many neighbours that the colours do not suffice.
 pub fn colors(mesh: &FillMesh) -> Vec<[f32; 4]> {
     let mut neighbours = vec![Vec::new(); mesh.fills.len()];
     let fill_of = |piece: u32| mesh.pieces[piece as usize].fill;
@@ -30,16 +33,18 @@ pub fn colors(mesh: &FillMesh) -> Vec<[f32; 4]> {
     }
     let mut chosen: Vec<usize> = Vec::with_capacity(mesh.fills.len());
     for (fill, beside) in neighbours.iter().enumerate() {
-        let taken = |color: usize| {
-            beside
-                .iter()
-                .any(|&other| other < fill && chosen[other] == color)
+        let apart = |color: usize| {
+            let taken = beside.iter().filter(|&&other| other < fill);
+            taken
+                .map(|&other| difference(color, chosen[other]))
+                .fold(FAR_APART, f32::min)
         };
-        // Starting elsewhere for every fill spreads the colours over the map.
+        // Starting elsewhere for every fill spreads the colours over the map; of equals the last wins.
         let first = fill * 5 % COLORS.len();
         let color = (0..COLORS.len())
             .map(|step| (first + step) % COLORS.len())
-            .find(|&color| !taken(color))
+            .rev()
+            .max_by(|&a, &b| apart(a).total_cmp(&apart(b)))
             .unwrap_or(first);
         chosen.push(color);
     }
@@ -50,6 +55,12 @@ pub fn colors(mesh: &FillMesh) -> Vec<[f32; 4]> {
             [red, green, blue, OPACITY]
         })
         .collect()
+}
+
+/// How far two of the colours are apart.
+fn difference(a: usize, b: usize) -> f32 {
+    let [a, b] = [a, b].map(|color| glam::Vec3::from_array(COLORS[color].map(f32::from)));
+    a.distance(b)
 }
 
 /// The linear value of an sRGB byte (IEC 61966-2-1).

@@ -1,15 +1,16 @@
 //! The window: events in, frames out. It draws only when something changed or moves.
 
+mod input;
+
 use std::sync::Arc;
 
-use glam::{DVec2, UVec2};
+use glam::UVec2;
 use globefill::wgpu;
 use web_time::Instant;
 use winit::{
     application::ApplicationHandler,
-    event::{ElementState, MouseButton, MouseScrollDelta, WindowEvent},
+    event::{ElementState, WindowEvent},
     event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy},
-    keyboard::{Key as WinitKey, NamedKey},
     window::{Window, WindowId},
 };
 
@@ -17,14 +18,12 @@ use crate::{
     flags::Flags,
     graphics::{Graphics, Paint},
     host::elevation::Elevation,
-    layers::{countries, files, fill_layer::FillLayer, zones},
+    layers::{countries, files::File, fill_layer::FillLayer, zones},
     panel, platform,
     screen::{self, Screen},
-    viewer::{Button, Key, Viewer, Wish},
+    viewer::{Viewer, Wish},
 };
 
-/// A touch pad's pixels for one step of a wheel.
-const PX_PER_STEP: f64 = 60.0;
 /// After a pause time goes on from here, not in one leap.
 const LONGEST_STEP_S: f64 = 0.1;
 /// Frames drawn before a screenshot: egui sizes its windows in the first.
@@ -32,12 +31,15 @@ const SETTLING_FRAMES: u32 = 4;
 
 /// The terrain among what is being loaded.
 const TERRAIN: &str = "terrain";
+const READING: &str = "reading";
+const MESHING: &str = "meshing";
 
 /// What other threads and futures send.
 enum Message {
     Opened(Box<Result<(Graphics, Screen), String>>),
     Loaded(String, Box<Result<FillLayer, String>>),
-    Loading(String),
+    /// What is being loaded, and what is done of it.
+    Loading(String, String),
     Terrain(Box<Result<Elevation, String>>),
     Picture(Result<Vec<u8>, String>),
     Hovers(bool),
@@ -106,7 +108,7 @@ impl App {
         name: &str,
         build: impl FnOnce() -> Result<FillLayer, String> + wgpu::WasmNotSend + 'static,
     ) {
-        self.viewer.loading.push(name.to_owned());
+        self.viewer.loads(name, MESHING);
         let (proxy, name) = (self.proxy.clone(), name.to_owned());
         platform::spawn(move || {
             // The window may be closed by now.
@@ -118,26 +120,38 @@ impl App {
     fn reader(&self) -> impl Fn(String, Result<String, String>) + wgpu::WasmNotSend + 'static {
         let proxy = self.proxy.clone();
         move |name, text| {
-            let _ = proxy.send_event(Message::Loading(name.clone()));
+            // The window may be closed by now.
+            let _ = proxy.send_event(Message::Loading(name.clone(), READING.to_owned()));
             let proxy = proxy.clone();
-            platform::spawn(move || {
-                let layer = text.and_then(|text| files::build(&name, &text));
-                let _ = proxy.send_event(Message::Loaded(name, Box::new(layer)));
-            });
+            platform::spawn(
+                move || match text.and_then(|text| File::parse(&name, &text)) {
+                    Ok(file) => {
+                        let step = format!("{MESHING} {}", file.size());
+                        let _ = proxy.send_event(Message::Loading(name.clone(), step));
+                        // A job of its own: where there is one thread, a person is told in between.
+                        platform::spawn(move || {
+                            let _ = proxy.send_event(Message::Loaded(name, Box::new(file.build())));
+                        });
+                    }
+                    Err(error) => {
+                        let _ = proxy.send_event(Message::Loaded(name, Box::new(Err(error))));
+                    }
+                },
+            );
         }
     }
 
     /// Loads what there is to see, once there is something to see it on.
     fn load_all(&mut self) {
         let proxy = self.proxy.clone();
-        self.viewer.loading.push(TERRAIN.to_owned());
+        self.viewer.loads(TERRAIN, READING);
         platform::elevation(move |elevation| {
             let _ = proxy.send_event(Message::Terrain(Box::new(elevation)));
         });
         self.load("countries", countries::build);
         self.load("zones", zones::build);
         for file in self.flags.files.clone() {
-            self.viewer.loading.push(platform::name(file.as_ref()));
+            self.viewer.loads(&platform::name(file.as_ref()), READING);
             platform::read_file(file.into(), self.reader());
         }
         let proxy = self.proxy.clone();
@@ -232,41 +246,6 @@ impl App {
         };
         Some((paint, soon))
     }
-
-    fn input(&mut self, event: &WindowEvent) {
-        let now_s = self.now_s();
-        let viewer = &mut self.viewer;
-        match event {
-            WindowEvent::CursorMoved { position, .. } => {
-                viewer.point(DVec2::new(position.x, position.y), now_s);
-            }
-            WindowEvent::CursorLeft { .. } => viewer.leave(),
-            WindowEvent::MouseInput {
-                state: ElementState::Pressed,
-                button,
-                ..
-            } => {
-                let tilts = self.ctrl || *button != MouseButton::Left;
-                let button = if tilts { Button::Tilt } else { Button::Grab };
-                if let Some(px) = viewer.pointer_px {
-                    viewer.press(button, px, now_s);
-                }
-            }
-            WindowEvent::MouseWheel { delta, .. } => viewer.scroll(match delta {
-                MouseScrollDelta::LineDelta(_, lines) => f64::from(*lines),
-                MouseScrollDelta::PixelDelta(px) => px.y / PX_PER_STEP,
-            }),
-            // A pinch to twice the size halves the distance.
-            WindowEvent::PinchGesture { delta, .. } => viewer.scroll(4.0 * delta),
-            WindowEvent::RotationGesture { delta, .. } => viewer.orbit.turn(f64::from(*delta), 0.0),
-            WindowEvent::KeyboardInput { event, .. } if event.state.is_pressed() => {
-                if let Some(key) = key(&event.logical_key) {
-                    viewer.key(key);
-                }
-            }
-            _ => {}
-        }
-    }
 }
 
 impl ApplicationHandler<Message> for App {
@@ -312,13 +291,9 @@ impl ApplicationHandler<Message> for App {
                 Err(error) => platform::give_up(&error),
             },
             Message::Loaded(name, layer) => self.viewer.loaded(&name, *layer),
-            Message::Loading(name) => {
-                if !self.viewer.loading.contains(&name) {
-                    self.viewer.loading.push(name);
-                }
-            }
+            Message::Loading(name, step) => self.viewer.loads(&name, &step),
             Message::Terrain(elevation) => {
-                self.viewer.loading.retain(|name| name != TERRAIN);
+                self.viewer.ended(TERRAIN);
                 match (*elevation, &mut self.drawn_with) {
                     (Ok(elevation), Some((graphics, _))) => {
                         graphics.elevation = Some(elevation);
@@ -374,7 +349,7 @@ impl ApplicationHandler<Message> for App {
             }
             _ => {}
         }
-        if !response.consumed {
+        if !response.consumed || matches!(event, WindowEvent::Touch(_)) {
             let rested = !self.viewer.orbit.is_moving() && !self.viewer.satellites.playing;
             if rested {
                 self.last_s = self.now_s();
@@ -384,19 +359,4 @@ impl ApplicationHandler<Message> for App {
             self.viewer.leave();
         }
     }
-}
-
-fn key(key: &WinitKey) -> Option<Key> {
-    Some(match key.as_ref() {
-        WinitKey::Named(NamedKey::ArrowLeft) | WinitKey::Character("a") => Key::Left,
-        WinitKey::Named(NamedKey::ArrowRight) | WinitKey::Character("d") => Key::Right,
-        WinitKey::Named(NamedKey::ArrowUp) | WinitKey::Character("w") => Key::Up,
-        WinitKey::Named(NamedKey::ArrowDown) | WinitKey::Character("s") => Key::Down,
-        WinitKey::Character("+" | "=") => Key::Nearer,
-        WinitKey::Character("-") => Key::Farther,
-        WinitKey::Character("n" | "r") => Key::NorthUp,
-        WinitKey::Named(NamedKey::Home) => Key::Home,
-        WinitKey::Named(NamedKey::Space) => Key::Play,
-        _ => return None,
-    })
 }

@@ -6,7 +6,8 @@
 //! ```
 //!
 //! Drag turns the globe; the wheel zooms to the pointer; right or ctrl drag tilts; arrows or WASD move,
-//! plus and minus zoom, N or R turns north up, Home goes home, space plays. `viewer.rs` is the state, without
+//! plus and minus zoom, N or R turns north up, Home goes home, space plays. One finger drags, two zoom and turn.
+//! `viewer.rs` is the state, without
 //! window or GPU; `graphics.rs` draws it; `app.rs` is the window, `platform/` what differs
 //! between desktops and browsers.
 
@@ -21,6 +22,7 @@ mod orbit;
 mod panel;
 mod platform;
 mod screen;
+mod touches;
 mod viewer;
 
 #[cfg(test)]

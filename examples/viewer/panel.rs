@@ -9,7 +9,7 @@ use crate::{
         fill_layer::{FillLayer, Look},
         satellites::{MOST, Satellites},
     },
-    viewer::{Viewer, Wish},
+    viewer::{Loading, Viewer, Wish},
 };
 
 pub fn show(viewer: &mut Viewer, ctx: &Context) {
@@ -49,24 +49,36 @@ fn scene(viewer: &mut Viewer, ui: &mut Ui) {
         });
     });
     ui.separator();
+    let mut closed = None;
     for (index, layer) in viewer.layers.iter_mut().enumerate() {
-        ui.push_id(index, |ui| layer_controls(layer, ui));
+        let asked = ui.push_id(index, |ui| layer_controls(layer, ui)).inner;
+        closed = closed.or(asked.then_some(index));
     }
-    for name in &viewer.loading {
+    if let Some(index) = closed {
+        viewer.close(index);
+    }
+    for Loading { name, step, since } in &viewer.loading {
         ui.horizontal(|ui| {
             ui.spinner();
-            ui.label(format!("Loading {name}"));
+            ui.label(format!("{name}: {step}, {} s", since.elapsed().as_secs()));
         });
     }
     satellites(&mut viewer.satellites, ui);
 }
 
-fn layer_controls(layer: &mut FillLayer, ui: &mut Ui) {
+/// Answers whether the layer is to be closed.
+fn layer_controls(layer: &mut FillLayer, ui: &mut Ui) -> bool {
     let FillLayer { title, look, .. } = layer;
-    ui.checkbox(&mut look.visible, RichText::new(title.as_str()).strong());
+    let closes = ui
+        .horizontal(|ui| {
+            ui.checkbox(&mut look.visible, RichText::new(title.as_str()).strong());
+            layer.can_be_closed && ui.small_button("✖").on_hover_text("Close").clicked()
+        })
+        .inner;
     if look.visible {
         ui.collapsing("Style", |ui| look_controls(look, ui));
     }
+    closes
 }
 
 fn look_controls(look: &mut Look, ui: &mut Ui) {

@@ -7,7 +7,7 @@ use globefill::{FrameStats, LonLat, Ring, countries::Dataset, wgpu};
 use crate::{
     graphics::Graphics,
     host::gpu::Gpu,
-    layers::{countries, files, zones},
+    layers::{countries, files::File, zones},
     viewer::{Button, Viewer},
 };
 
@@ -145,12 +145,32 @@ fn coverage_and_playing_change_the_picture() {
 #[test]
 fn a_bad_file_is_shown_and_not_fatal() {
     let mut viewer = viewer_at("10,50,1e6");
-    viewer.loading.push("bad.geojson".into());
-    viewer.loaded("bad.geojson", files::build("bad.geojson", "{"));
+    viewer.loads("bad.geojson", "reading");
+    let layer = File::parse("bad.geojson", "{").and_then(File::build);
+    viewer.loaded("bad.geojson", layer);
     assert!(viewer.loading.is_empty() && viewer.layers.is_empty());
     assert!(
         viewer.errors[0].starts_with("bad.geojson: "),
         "{:?}",
         viewer.errors
     );
+}
+
+#[test]
+fn a_closed_file_is_gone() {
+    let mut graphics = graphics();
+    let mut viewer = viewer_at("10,50,1e6");
+    let (_, bare) = draw(&mut graphics, &mut viewer);
+    let square = r#"{"type":"Polygon","coordinates":[[[8,48],[12,48],[12,52],[8,52],[8,48]]]}"#;
+    let file = File::parse("square.geojson", square).unwrap();
+    assert_eq!(file.size(), "1 regions, 5 vertices");
+    viewer.loaded("square.geojson", file.build());
+    let (shown, filled) = draw(&mut graphics, &mut viewer);
+    assert!(bare != filled);
+    assert!(viewer.layers[0].can_be_closed);
+    viewer.close(0);
+    let (gone, after) = draw(&mut graphics, &mut viewer);
+    assert!(bare == after);
+    assert_eq!((shown.fills, gone.fills), (1, 0));
+    assert!(gone.gpu_bytes < shown.gpu_bytes);
 }

@@ -1,11 +1,13 @@
 //! The viewer's state, without window or GPU: what is shown, and what input does to it.
 
 use glam::{DVec2, UVec2};
-use globefill::{FrameStats, LonLat, Renderer};
+use globefill::{FrameStats, LonLat, MeshId, Renderer};
+use web_time::Instant;
 
 use crate::{
     layers::{fill_layer::FillLayer, satellites::Satellites},
     orbit::Orbit,
+    touches::Touches,
 };
 
 /// Farther than this from where the button went down is a drag, not a click.
@@ -50,6 +52,15 @@ pub enum Key {
     Play,
 }
 
+/// Something that is being loaded.
+#[derive(Clone, Debug)]
+pub struct Loading {
+    pub name: String,
+    /// What is being done just now.
+    pub step: String,
+    pub since: Instant,
+}
+
 struct Drag {
     button: Button,
     from_px: DVec2,
@@ -72,8 +83,7 @@ pub struct Viewer {
     pub hovered: Option<Hit>,
     pub picked: Option<Hit>,
     pub pointer_px: Option<DVec2>,
-    /// What is being loaded.
-    pub loading: Vec<String>,
+    pub loading: Vec<Loading>,
     pub errors: Vec<String>,
     pub notice: Option<String>,
     pub dropping: bool,
@@ -81,7 +91,10 @@ pub struct Viewer {
     pub frame_ms: f64,
     pub adapter: String,
     pub wishes: Vec<Wish>,
+    pub touches: Touches,
     drag: Option<Drag>,
+    /// Meshes of closed layers that the renderer still has.
+    closed: Vec<MeshId>,
 }
 
 impl Viewer {
@@ -105,15 +118,36 @@ impl Viewer {
             frame_ms: 0.0,
             adapter: String::new(),
             wishes: Vec::new(),
+            touches: Touches::default(),
             drag: None,
+            closed: Vec::new(),
         }
     }
 
+    /// A load has begun, or has come to another step.
+    pub fn loads(&mut self, name: &str, step: &str) {
+        let step = step.to_owned();
+        if let Some(loading) = self.loading.iter_mut().find(|it| it.name == name) {
+            loading.step = step;
+            return;
+        }
+        self.loading.push(Loading {
+            name: name.to_owned(),
+            step,
+            since: Instant::now(),
+        });
+    }
+
     /// A load has ended, well or badly.
-    pub fn loaded(&mut self, what: &str, layer: Result<FillLayer, String>) {
-        if let Some(index) = self.loading.iter().position(|name| name == what) {
+    pub fn ended(&mut self, name: &str) {
+        if let Some(index) = self.loading.iter().position(|it| it.name == name) {
             self.loading.remove(index);
         }
+    }
+
+    /// A layer has been loaded, or not.
+    pub fn loaded(&mut self, name: &str, layer: Result<FillLayer, String>) {
+        self.ended(name);
         match layer {
             Ok(layer) => {
                 // In the order in which they lie, whichever is ready first.
@@ -124,6 +158,12 @@ impl Viewer {
             }
             Err(error) => self.errors.push(error),
         }
+    }
+
+    /// Takes a layer off the globe.
+    pub fn close(&mut self, layer: usize) {
+        self.closed.extend(self.layers.remove(layer).mesh_id());
+        (self.hovered, self.picked) = (None, None);
     }
 
     pub fn press(&mut self, button: Button, px: DVec2, now_s: f64) {
@@ -178,6 +218,18 @@ impl Viewer {
         }
     }
 
+    /// Ends a drag where it is.
+    pub fn cancel_drag(&mut self) {
+        self.drag = None;
+    }
+
+    /// What is held is dragged, wherever it is let go.
+    pub fn no_click(&mut self) {
+        if let Some(drag) = &mut self.drag {
+            drag.is_click = false;
+        }
+    }
+
     /// The pointer has left the globe for the panel or out of the window.
     pub fn leave(&mut self) {
         self.hovered = None;
@@ -226,6 +278,9 @@ impl Viewer {
 
     /// Hands the renderer what changed.
     pub fn sync(&mut self, renderer: &mut Renderer) -> Result<(), String> {
+        for id in self.closed.drain(..) {
+            renderer.remove(id).map_err(|error| error.to_string())?;
+        }
         for (index, layer) in self.layers.iter_mut().enumerate() {
             let in_layer =
                 |hit: Option<Hit>| hit.filter(|hit| hit.layer == index).map(|hit| hit.fill);

@@ -1,6 +1,6 @@
 //! GeoJSON that a person opened.
 
-use globefill::geo_json::regions_from_geojson;
+use globefill::{Region, geo_json::regions_from_geojson};
 
 use super::fill_layer::{FillLayer, Look};
 use crate::host::palette;
@@ -14,18 +14,44 @@ const LOOK: Look = Look {
     z_index: 20,
 };
 
-/// Reads and meshes a GeoJSON text; errors name the file and what is wrong where.
-pub fn build(file: &str, text: &str) -> Result<FillLayer, String> {
-    let named = |error: &dyn std::error::Error| format!("{file}: {error}");
-    let regions = regions_from_geojson(text).map_err(|error| named(&error))?;
-    let regions = regions.into_iter().enumerate().map(|(index, read)| {
-        let name = read.name.or(read.id);
-        (
-            name.unwrap_or_else(|| format!("Feature {index}")),
-            read.region,
-        )
-    });
-    FillLayer::build(file, regions.collect(), LOOK, palette::colors).map_err(|error| named(&error))
+/// The regions of a file, with their names.
+pub struct File {
+    name: String,
+    regions: Vec<(String, Region)>,
+}
+
+impl File {
+    /// Reads a GeoJSON text; errors name the file and what is wrong where.
+    pub fn parse(name: &str, text: &str) -> Result<Self, String> {
+        let read = regions_from_geojson(text).map_err(|error| format!("{name}: {error}"))?;
+        let named = read.into_iter().enumerate().map(|(index, read)| {
+            let name = read.name.or(read.id);
+            let name = name.unwrap_or_else(|| format!("Feature {index}"));
+            (name, read.region)
+        });
+        Ok(Self {
+            name: name.to_owned(),
+            regions: named.collect(),
+        })
+    }
+
+    /// How much there is to mesh.
+    pub fn size(&self) -> String {
+        let polygons = self.regions.iter().flat_map(|(_, region)| &region.polygons);
+        let vertices: usize = polygons
+            .map(|polygon| polygon.shell.len() + polygon.holes.iter().map(Vec::len).sum::<usize>())
+            .sum();
+        format!("{} regions, {vertices} vertices", self.regions.len())
+    }
+
+    /// Meshes the regions; errors name the file and the place.
+    pub fn build(self) -> Result<FillLayer, String> {
+        let named = |error| format!("{}: {error}", self.name);
+        let layer = FillLayer::build(&self.name, self.regions, LOOK, palette::colors);
+        let mut layer = layer.map_err(named)?;
+        layer.can_be_closed = true;
+        Ok(layer)
+    }
 }
 
 #[cfg(test)]
@@ -34,7 +60,7 @@ mod tests {
 
     #[test]
     fn a_bad_file_is_an_error_that_names_it() {
-        let error = build("bad.geojson", "{ not json").err().unwrap();
+        let error = File::parse("bad.geojson", "{ not json").err().unwrap();
         assert!(error.starts_with("bad.geojson: "), "{error}");
     }
 }

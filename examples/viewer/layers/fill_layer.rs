@@ -33,6 +33,8 @@ pub struct FillLayer {
     pub facts: Vec<Fact>,
     /// Linear RGB and alpha of every fill.
     pub colors: Vec<[f32; 4]>,
+    /// Whether a person brought it and may take it away.
+    pub can_be_closed: bool,
     locator: Locator,
     /// Until it is on the GPU.
     mesh: Option<FillMesh>,
@@ -65,11 +67,17 @@ impl FillLayer {
             look,
             facts,
             colors: colors(&mesh),
+            can_be_closed: false,
             locator: Locator::new(&mesh),
             mesh: Some(mesh),
             id: None,
             drawn: Vec::new(),
         })
+    }
+
+    /// Its mesh in the renderer.
+    pub fn mesh_id(&self) -> Option<MeshId> {
+        self.id
     }
 
     /// The topmost fill at a point, of those that are shown.
