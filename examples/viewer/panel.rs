@@ -60,7 +60,8 @@ fn scene(viewer: &mut Viewer, ui: &mut Ui) {
     for Loading { name, step, since } in &viewer.loading {
         ui.horizontal(|ui| {
             ui.spinner();
-            ui.label(format!("{name}: {step}, {} s", since.elapsed().as_secs()));
+            let line = format!("{name}: {step}, {} s", since.elapsed().as_secs());
+            ui.add(egui::Label::new(line).truncate());
         });
     }
     satellites(&mut viewer.satellites, ui);
@@ -72,7 +73,7 @@ fn layer_controls(layer: &mut FillLayer, ui: &mut Ui) -> bool {
     let closes = ui
         .horizontal(|ui| {
             ui.checkbox(&mut look.visible, RichText::new(title.as_str()).strong());
-            layer.can_be_closed && ui.small_button("✖").on_hover_text("Close").clicked()
+            layer.can_be_closed && ui.small_button("×").on_hover_text("Close").clicked()
         })
         .inner;
     if look.visible {

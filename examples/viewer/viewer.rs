@@ -298,9 +298,10 @@ impl Viewer {
         let fact = |hit: Hit| self.layers.get(hit.layer)?.facts.get(hit.fill as usize);
         let picked = self.picked.and_then(fact).map_or("-", |fact| &fact.name);
         format!(
-            "loading={} errors={} shown={} picked={picked} distance_m={:.1} sensors={} coverage={} upload={} .",
+            "loading={} errors={} layers={} shown={} picked={picked} distance_m={:.1} sensors={} coverage={} upload={} .",
             self.loading.len(),
             self.errors.len(),
+            self.layers.len(),
             self.layers
                 .iter()
                 .filter(|layer| layer.look.visible)

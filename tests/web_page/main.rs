@@ -36,6 +36,8 @@ const COUNTRIES: (f64, f64) = (26.0, 118.0);
 const ZONES: (f64, f64) = (26.0, 164.0);
 /// Where no layer is shown.
 const SATELLITES: (f64, f64) = (26.0, 164.0);
+/// Behind the name of the file that lies beside the page.
+const CLOSE_FILE: (f64, f64) = (130.0, 210.0);
 const OPEN_FILE: (f64, f64) = (78.0, 63.0);
 const SCREENSHOT: (f64, f64) = (187.0, 63.0);
 
@@ -204,6 +206,57 @@ fn files_good_and_bad_are_opened_and_a_picture_is_downloaded() {
         .unwrap();
     choose(&mut browser, &good.to_string_lossy());
     browser.wait_for_line(&["errors=1", "loading=0", "shown=3"]);
+    assert_eq!(browser.complaints, [""; 0]);
+}
+
+#[test]
+#[ignore = "needs the built page and Chromium: scripts/web-test"]
+fn a_dropped_file_is_opened_and_closed() {
+    let (_server, mut browser) = open(Adapter::Software, "?log&camera=10.4,51.2,900000");
+    browser.wait_for_line(&["loading=0", "shown=2"]);
+    let file = Path::new(PAGE)
+        .join("zones.geojson")
+        .canonicalize()
+        .unwrap();
+    let data = json!({ "items": [], "files": [file], "dragOperationsMask": 1 });
+    for kind in ["dragEnter", "dragOver", "drop"] {
+        let params = json!({ "type": kind, "x": 640, "y": 400, "data": data });
+        browser.call("Input.dispatchDragEvent", params);
+    }
+    browser.wait_for_line(&["loading=0", "errors=0", "shown=3"]);
+    browser.click(CLOSE_FILE.0, CLOSE_FILE.1);
+    browser.wait_for_line(&["layers=2"]);
+    assert_eq!(browser.complaints, [""; 0]);
+}
+
+#[test]
+#[ignore = "needs the built page and Chromium: scripts/web-test"]
+fn fingers_tap_and_stretch() {
+    let (_server, mut browser) = open(Adapter::Software, "?log&camera=10.4,51.2,900000");
+    browser.wait_for_line(&["loading=0", "shown=2"]);
+    let touch = |browser: &mut Browser, kind: &str, at: &[(f64, f64)]| {
+        let points = (0..).zip(at);
+        let points = points.map(|(id, (x, y))| json!({ "id": id, "x": x, "y": y }));
+        let points: Vec<_> = points.collect();
+        let params = json!({ "type": kind, "touchPoints": points });
+        browser.call("Input.dispatchTouchEvent", params);
+    };
+    touch(&mut browser, "touchStart", &[(640.0, 330.0)]);
+    touch(&mut browser, "touchEnd", &[]);
+    browser.wait_for_line(&["picked=Germany"]);
+    // Apart to four times as far: four times as near.
+    touch(&mut browser, "touchStart", &[(615.0, 400.0)]);
+    touch(
+        &mut browser,
+        "touchStart",
+        &[(615.0, 400.0), (665.0, 400.0)],
+    );
+    for apart_px in [40.0, 60.0, 80.0, 100.0] {
+        let at = [(640.0 - apart_px, 400.0), (640.0 + apart_px, 400.0)];
+        touch(&mut browser, "touchMove", &at);
+    }
+    touch(&mut browser, "touchEnd", &[]);
+    browser.wait_for_line(&["distance_m=225000.0", "picked=Germany"]);
     assert_eq!(browser.complaints, [""; 0]);
 }
 
