@@ -120,8 +120,9 @@ pub struct HeightRange {
 ///
 /// depth = log₂(1 + `per_m` · (w − `from_m`)) / log₂(1 + `per_m` · (`far_m` − `from_m`))
 ///
-/// The sky is 1. A host writes that for each fragment. Where it does so for each vertex, depths between are
-/// others, and what is drawn is off by as much, unless its triangles are so small that it does not show.
+/// The sky is 1: it runs that way whatever [`RendererOptions::depth`] is, and one that runs the other way is not
+/// served. A host writes that for each fragment. Where it does so for each vertex, depths between are others,
+/// and what is drawn is off by as much, unless its triangles are so small that it does not show.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde",

@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use glam::Vec4Swizzles as _;
+
 use crate::{
     fill_mesh::{Arc, Bounds, FillMesh},
     frame::code::Code,
@@ -103,11 +105,12 @@ impl EdgeDraws {
 pub(crate) struct ArcEdges {
     /// By layer, then by arc: whether they are drawn. Empty for layers without edges.
     wanted: Vec<Vec<bool>>,
-    /// By arc: whether it is measured on the screen.
+    /// By arc: whether it is drawn at all and measured on the screen.
     flat: Vec<bool>,
 }
 
-/// Chords that are measured on the screen span no more than this share of their distance.
+/// Chords that are measured on the screen span no more than this share of their distance, nor do they with the
+/// metres that they reach.
 const FLAT_SHARE: f64 = 0.25;
 
 impl ArcEdges {
@@ -117,23 +120,27 @@ impl ArcEdges {
         sight: &Sight,
         wants: &EdgeWants<'_>,
     ) -> Self {
+        // By arc, over all layers that draw it: the most metres that its edges reach.
+        let mut reaches_m: Vec<Option<f64>> = vec![None; mesh.arcs.len()];
         let in_layer = |(layer, edges): (usize, &Option<LayerEdges>)| match edges {
-            Some(edges) => mesh
-                .arcs
-                .iter()
-                .map(|arc| {
-                    edges
-                        .reach_of(arc, layer, shown)
-                        .is_seen(&arc.bounds, sight)
+            Some(edges) => (mesh.arcs.iter().zip(&mut reaches_m))
+                .map(|(arc, reach_m)| {
+                    let reach = edges.reach_of(arc, layer, shown);
+                    let seen = reach.is_seen(&arc.bounds, sight);
+                    if seen {
+                        *reach_m = Some(reach_m.unwrap_or(0.0).max(reach.metres));
+                    }
+                    seen
                 })
                 .collect(),
             None => Vec::new(),
         };
         let wanted: Vec<Vec<bool>> = wants.layers.iter().enumerate().map(in_layer).collect();
-        let any = |arc: usize| wanted.iter().any(|arcs| arcs.get(arc) == Some(&true));
-        let flat = |(index, arc)| any(index) && is_flat(mesh, arc, sight);
+        let flat = |(arc, reach_m): (&Arc, &Option<f64>)| {
+            reach_m.is_some_and(|reach_m| is_flat(mesh, arc, sight, reach_m))
+        };
         Self {
-            flat: mesh.arcs.iter().enumerate().map(flat).collect(),
+            flat: mesh.arcs.iter().zip(&reaches_m).map(flat).collect(),
             wanted,
         }
     }
@@ -160,21 +167,82 @@ impl ArcEdges {
     }
 }
 
-/// Whether relief and sag show less than the pixel budget: half the relief, since the screen shows chords
-/// half way up, and the most that a chord lies below the ellipsoid.
-fn is_flat(mesh: &FillMesh, arc: &Arc, sight: &Sight) -> bool {
+/// Whether an arc's edges, which reach `reach_m` besides what is asked for in pixels, may be measured on the
+/// screen: nowhere are they displaced by more than the pixel budget.
+///
+/// Relief and sag displace them by half the relief, since the screen shows chords half way up, and by the
+/// most that a chord lies below the ellipsoid. Pixels are those of the screen by definition. Metres, however,
+/// are taken to be as large as they are at the chord's start, across it, and the nearest boundary on the
+/// screen to be that on the ground, which displaces the outline of a reach by no
+/// more than [`aslant_m`] and [`uneven_m`].
+fn is_flat(mesh: &FillMesh, arc: &Arc, sight: &Sight, reach_m: f64) -> bool {
     let distance_m = sight.distance_to_m(&arc.bounds);
     let budget_m = sight.tolerance_m(distance_m);
     let half_relief_m = 0.5 * (sight.surface_m.1 - sight.surface_m.0);
+    // What the vertices are not needed for.
+    let aslant_m = aslant_m(reach_m, sight.least_sine(&arc.bounds));
+    if half_relief_m + aslant_m > budget_m {
+        return false;
+    }
     let first = arc.first_vertex as usize;
     let chords = mesh.vertices[first..first + arc.vertex_count as usize].windows(2);
     let longest_squared = chords
         .map(|ends| ends[0].distance_squared(ends[1]))
         .fold(0.0, f64::max);
-    let sag_m = longest_squared / (8.0 * mesh.ellipsoid.b_m);
+    let radius_m = mesh.ellipsoid.b_m;
+    let sag_m = longest_squared / (8.0 * radius_m);
+    let span_m = longest_squared.sqrt() + reach_m;
     // Parallel lines of sight show all of a chord at one scale.
-    let level = sight.parallel || longest_squared.sqrt() <= FLAT_SHARE * distance_m;
-    half_relief_m + sag_m <= budget_m && level
+    let level = sight.parallel || span_m <= FLAT_SHARE * distance_m;
+    let nearness = if sight.parallel {
+        0.0
+    } else {
+        1.0 / distance_m
+    };
+    let uneven_m = uneven_m(reach_m, span_m, nearness, 1.0 / radius_m);
+    half_relief_m + sag_m + aslant_m + uneven_m <= budget_m && level
+}
+
+impl Sight {
+    /// Lower bound of the sine of the angle at which lines of sight meet the ellipsoid's tangent planes in
+    /// `bounds`; 0 where they may graze it.
+    fn least_sine(&self, bounds: &Bounds) -> f64 {
+        let radii_m = self.ellipsoid.radii_m();
+        let middle_m = bounds.axis * radii_m;
+        let up = (bounds.axis / radii_m).normalize();
+        let from_eye_m = middle_m - self.eye_ecef_m;
+        let (line, turning_rad) = if self.parallel {
+            (self.clip_from_relative.transpose().z_axis.xyz(), 0.0)
+        } else {
+            let reach_m = bounds.radius_rad * radii_m.max_element();
+            let share = reach_m / from_eye_m.length();
+            (from_eye_m, share.min(1.0).asin())
+        };
+        // Normals turn by no more than angles in coordinates divided by the radii, and the flattening twice.
+        let leaning = 1.0 + 2.0 * self.ellipsoid.flattening().abs();
+        let middle_rad = (-line.normalize()).dot(up).clamp(-1.0, 1.0).asin();
+        let least_rad = middle_rad - turning_rad - leaning * bounds.radius_rad;
+        least_rad.max(0.0).sin()
+    }
+}
+
+/// How far, metres across the line of sight, level ground seen at a slant displaces the outline of a reach
+/// that is measured on the screen.
+///
+/// Parallel lines of sight show a circle of radius r on the ground as an ellipse with half axes r and r sin e.
+/// What is within r of a boundary therefore holds all that appears within r sin e of it, and nothing that
+/// appears farther than r. So does what is drawn: whichever chord is nearest on the screen, its metres show
+/// as between sin e and 1 of a metre across the line of sight. Between the two outlines lie r (1 − sin e) at
+/// most, whatever the boundary's shape; corners need that much.
+fn aslant_m(reach_m: f64, least_sine: f64) -> f64 {
+    reach_m * (1.0 - least_sine)
+}
+
+/// The same for scales that are not those at the chord's start, up to `span_m` away: metres appear smaller in
+/// proportion to the distance, in themselves and as the chord's direction from the view axis changes, and
+/// ground that is curved turns from its tangent plane. First order in `span_m` over either radius.
+fn uneven_m(reach_m: f64, span_m: f64, nearness: f64, curvature: f64) -> f64 {
+    reach_m * span_m * (2.0 * nearness + curvature)
 }
 
 impl EdgeDraws {
@@ -281,154 +349,4 @@ pub(crate) fn edge_slots(mesh: &FillMesh) -> Vec<EdgeSlot> {
 }
 
 #[cfg(all(test, feature = "countries"))]
-mod tests {
-    use glam::{DMat3, DMat4, DVec4, UVec2};
-
-    use super::*;
-    use crate::{
-        Ellipsoid, FillStyle, LonLat, MeshOptions,
-        countries::Dataset,
-        frame::{
-            code::Mantissa,
-            edge_segments::EdgeSegment,
-            layers::{Counting, FillOf, Layering, Styled},
-            refine::RefinedChord,
-            select::{Selection, slot},
-        },
-        gpu::fixed_point::{FixedVertex, encode},
-        options::{Camera, Frame, RendererOptions},
-    };
-
-    fn countries() -> FillMesh {
-        let countries = Dataset::Countries110m.countries();
-        let regions: Vec<_> = countries.into_iter().map(|c| c.region).collect();
-        FillMesh::build(&regions, &MeshOptions::default()).expect("embedded data is sound")
-    }
-
-    fn looking_down(mesh: &FillMesh, at: LonLat, height_m: f64) -> Sight {
-        let up = Ellipsoid::WGS84.normal(at);
-        let right = up.any_orthonormal_vector();
-        let scale = 1.0 / 30f64.to_radians().tan();
-        let camera = Camera {
-            eye_ecef_m: Ellipsoid::WGS84.ecef(at, height_m),
-            view_from_ecef: DMat3::from_cols(right, up.cross(right), up).transpose(),
-            clip_from_view: DMat4::from_cols(
-                DVec4::new(scale, 0.0, 0.0, 0.0),
-                DVec4::new(0.0, scale, 0.0, 0.0),
-                DVec4::new(0.0, 0.0, 0.0, -1.0),
-                DVec4::new(0.0, 0.0, 0.1 * height_m, 0.0),
-            ),
-        };
-        let frame = Frame {
-            pixel_error: 0.0,
-            ..Frame::new(camera, UVec2::splat(720))
-        };
-        Sight::new(
-            mesh.ellipsoid,
-            mesh.sag_m,
-            &frame,
-            &RendererOptions::default(),
-        )
-        .expect("valid")
-    }
-
-    /// Every chord of an arc that is drawn is drawn once: as it is stored, or as pieces that lead from its
-    /// first vertex to its last. Chords of arcs that ask for no edges are not drawn.
-    #[test]
-    fn chords_and_pieces_cover_each_arc_once() {
-        let mesh = countries();
-        let styles = vec![FillStyle::default(); mesh.fills.len()];
-        let styled = [Styled {
-            mesh: &mesh,
-            styles: &styles,
-        }];
-        let layering =
-            Layering::assign(&styled, Counting::Winding, Mantissa::Single).expect("fits");
-        let slots = edge_slots(&mesh);
-        let layers: Vec<_> = layering
-            .layers
-            .iter()
-            .map(|layer| {
-                // Every third fill asks for edges.
-                let asks = |of: &FillOf| [0.0, if of.fill.is_multiple_of(3) { 4.0 } else { 0.0 }];
-                let nothing = std::iter::once([0.0; 2]);
-                Some(LayerEdges {
-                    code: layer.code,
-                    reaches: nothing.chain(layer.fills.iter().map(asks)).collect(),
-                })
-            })
-            .collect();
-        let wants = EdgeWants {
-            layers: &layers,
-            slots: &slots,
-        };
-        let (mut stored, mut refined, mut left_out) = (0, 0, 0);
-        for (at, height_m) in [
-            (LonLat::new(10.0, 50.0), 2e7),
-            (LonLat::new(13.0, 48.5), 5e4),
-            (LonLat::new(6.8, 49.2), 1_000.0),
-        ] {
-            let sight = looking_down(&mesh, at, height_m);
-            let codes = &layering.codes[0];
-            let selection = Selection::of(&mesh, layering.coded(0), &sight, &wants);
-            let shown: Vec<_> = codes
-                .iter()
-                .zip(&mesh.pieces)
-                .map(|(code, piece)| code.filter(|_| !sight.beyond_horizon(&piece.bounds)))
-                .collect();
-            let edges = ArcEdges::new(&mesh, &shown, &sight, &wants);
-            for (layer, draws) in selection.layers.iter().enumerate() {
-                for (index, arc) in mesh.arcs.iter().enumerate() {
-                    for vertex in arc.first_vertex..arc.first_vertex + arc.vertex_count - 1 {
-                        let first = slot(index as u32, vertex);
-                        let as_stored = (draws.edges.chords.iter().chain(&draws.edges.flat))
-                            .filter(|run| run.start <= first && first + 1 < run.end)
-                            .count();
-                        let of_chord = |chord: &&RefinedChord| {
-                            (chord.arc, chord.vertex) == (index as u32, vertex)
-                        };
-                        let pieces = selection.patch.chords.iter().position(|c| of_chord(&c));
-                        let as_pieces = pieces.map_or(0, |chord| {
-                            let starts = &selection.segments.starts;
-                            let range = starts[chord] as usize..starts[chord + 1] as usize;
-                            let runs = draws.edges.segments.iter();
-                            let drawn = runs.filter(|run| {
-                                !range.is_empty() && run.contains(&(range.start as u32))
-                            });
-                            let drawn = drawn.count();
-                            if drawn > 0 {
-                                let ends = [vertex, vertex + 1]
-                                    .map(|vertex| encode(mesh.vertices[vertex as usize]));
-                                let places =
-                                    [first, first + 1].map(|slot| slots[slot as usize].along);
-                                assert_leads(&selection.segments.pieces[range], ends, places);
-                            }
-                            drawn
-                        });
-                        let asked = usize::from(edges.wanted(layer, index));
-                        assert_eq!(as_stored + as_pieces, asked, "arc {index}, {height_m} m");
-                        stored += as_stored;
-                        refined += as_pieces;
-                        left_out += 1 - asked;
-                    }
-                }
-            }
-        }
-        assert!(
-            stored > 100 && refined > 0 && left_out > 100,
-            "{stored} {refined} {left_out}"
-        );
-    }
-
-    fn assert_leads(pieces: &[EdgeSegment], ends: [FixedVertex; 2], places: [u32; 2]) {
-        assert_eq!(pieces[0].ends[0], ends[0]);
-        assert_eq!(pieces[pieces.len() - 1].ends[1], ends[1]);
-        assert_eq!(pieces[0].along[0], places[0]);
-        assert_eq!(pieces[pieces.len() - 1].along[1], places[1]);
-        for pair in pieces.windows(2) {
-            assert_eq!(pair[0].ends[1], pair[1].ends[0]);
-            assert_eq!(pair[0].along[1], pair[1].along[0]);
-            assert!(pair[0].along[0] <= pair[0].along[1]);
-        }
-    }
-}
+mod tests;

@@ -23,6 +23,8 @@ pub struct Pose {
     pub behind_m: f64,
     /// Where the view axis passes through the picture: from its middle, halves of its width and height.
     pub aside: DVec2,
+    /// 1, or -1 where the projection turns the picture's right or its top over.
+    pub signs: DVec2,
 }
 
 impl Pose {
@@ -36,6 +38,7 @@ impl Pose {
             parallel_m: None,
             behind_m: 0.0,
             aside: DVec2::ZERO,
+            signs: DVec2::ONE,
         }
     }
 
@@ -176,7 +179,7 @@ impl Lens {
         Self {
             eye_m: figure.ecef(pose.at, pose.height_m) - forward * pose.behind_m,
             view_from_ecef: DMat3::from_cols(right, above, -forward).transpose(),
-            scale: f32_of(DVec2::new(focal / aspect, focal)),
+            scale: f32_of(pose.signs * DVec2::new(focal / aspect, focal)),
             aside: f32_of(pose.aside),
             parallel,
             depth: f32_of(range.coefficients(parallel)),
@@ -219,7 +222,7 @@ impl Lens {
 
     /// Height of a pixel, metres, at a view distance of 1, or at any where lines of sight are parallel.
     pub fn pixel_m(&self) -> f64 {
-        2.0 / (self.scale.y * f64::from(self.size_px.y))
+        2.0 / (self.scale.y.abs() * f64::from(self.size_px.y))
     }
 
     /// Direction, ECEF, of the line of sight at a point of the picture, of length 1 along the view axis.

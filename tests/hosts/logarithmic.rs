@@ -21,6 +21,9 @@ const KINDS: [DepthKind; 3] = [
     DepthKind::Logarithmic24,
 ];
 
+/// Of frames without logarithms.
+const PLAIN: [DepthKind; 2] = [DepthKind::Standard, DepthKind::ReversedFinite];
+
 #[test]
 fn nothing_is_wrong_at_an_edge() {
     let Some(gpu) = gpu() else { return };
@@ -90,19 +93,23 @@ fn nothing_is_wrong_with_four_samples() {
     gate.finish();
 }
 
-/// Frames of one view with and without logarithms, and with parallel lines of sight.
+/// Frames of one view with and without logarithms, and with parallel lines of sight, by renderers whose other
+/// depths run either way.
 #[test]
 fn depths_may_change_from_frame_to_frame() {
     let Some(gpu) = gpu() else { return };
     let subject = Subject::pair();
-    for count in TECHNIQUES {
+    for (count, plain) in TECHNIQUES
+        .into_iter()
+        .flat_map(|count| PLAIN.map(|plain| (count, plain)))
+    {
         let straight = subject.pose(Terrain::Bare, 5e3);
         let surfaces = [
-            (straight, DepthKind::Standard),
+            (straight, plain),
             (straight, DepthKind::Logarithmic),
-            (straight.parallel(4e3), DepthKind::Standard),
+            (straight.parallel(4e3), plain),
             (straight, DepthKind::FromNear),
-            (straight, DepthKind::Standard),
+            (straight, plain),
         ]
         .map(|(pose, kind)| Surface::new(&cast(&pose, Terrain::Bare), kind));
         let mut painter = IdPainter::new(gpu, subject.mesh.clone(), &surfaces[0], count);
@@ -174,7 +181,13 @@ fn logarithms_that_cannot_be_are_refused() {
     };
     let camera = surface.lens.camera();
     let good = LogDepth::new(0.1, 1e9);
-    let bad: [LogDepth; 5] = [
+    let bad: [LogDepth; 6] = [
+        // The other way round.
+        LogDepth {
+            near_m: good.far_m,
+            far_m: good.near_m,
+            ..good
+        },
         LogDepth {
             near_m: 0.0,
             ..good

@@ -9,6 +9,7 @@ mod gate;
 mod lenses;
 mod logarithmic;
 mod lost_device;
+mod mirrored;
 mod parallel;
 mod underground;
 mod viewports;

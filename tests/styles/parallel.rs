@@ -171,13 +171,7 @@ fn strokes_are_as_wide_as_asked_on_the_side_asked() {
         let px_m = pixel_m(&surface);
         let mut stage = Stage::new(gpu, built(&[Region::from(zone.clone())]), &surface);
         for align in [Align::Inner, Align::Outer] {
-            // Aslant, broad ones are measured on the screen, along perspectives too.
-            let widths_px: &[f64] = if pitch_deg == -90.0 {
-                &[1.0, 4.0]
-            } else {
-                &[1.0]
-            };
-            for &width_px in widths_px {
+            for width_px in [1.0, 4.0] {
                 let width_m = width_px * px_m;
                 let mut widths = vec![Length::Metres(width_m as f32)];
                 // Pixels are metres only where all is seen from straight above.

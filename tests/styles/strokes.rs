@@ -7,6 +7,7 @@ use globefill::{
 };
 
 use crate::common::{
+    camera::Pose,
     headless::gpu,
     surface::{Cast, DepthKind, Surface, Terrain},
     zone_oracle::ZoneOracle,
@@ -122,6 +123,66 @@ fn strokes_are_as_wide_as_asked_on_the_side_asked() {
                     assert!((mean - 1.0).abs() <= 0.04, "{mean}");
                 }
             }
+        }
+    }
+}
+
+/// Broad strokes in metres of a circle seen aslant, where what is nearest on the screen is not nearest on
+/// the ground, and where metres a pixel change across the stroke.
+#[test]
+fn broad_strokes_keep_their_width_aslant() {
+    let Some(gpu) = gpu() else { return };
+    let aslant = |height_m: f64, tilt| (height_m, pose(AT, height_m, tilt));
+    let parallel = |picture_m: f64, pitch_deg| {
+        let pose = Pose::nadir(AT.lon_deg, AT.lat_deg, 0.0).turned(33.0, pitch_deg);
+        (picture_m, pose.parallel(picture_m).back_by(1e6))
+    };
+    let mirrored = |(height_m, pose)| {
+        let signs = DVec2::new(-1.0, 1.0);
+        (height_m, Pose { signs, ..pose })
+    };
+    for (height_m, pose) in [
+        aslant(1e3, 0.6),
+        aslant(1e5, 0.6),
+        aslant(1e5, 0.75),
+        aslant(3e5, 0.6),
+        parallel(1e3, -35.0),
+        parallel(1e5, -25.0),
+        mirrored(parallel(1e5, -60.0)),
+    ] {
+        let surface = bare(&pose, SMALL);
+        let px_m = pixel_m(&surface);
+        let middle_m = point_at(&surface, SMALL.as_dvec2() * 0.5).expect("the ground");
+        let zone = Zone::circle(figure().geodetic(middle_m).0, 20.0 * px_m);
+        let mut stage = Stage::new(gpu, built(&[Region::from(zone.clone())]), &surface);
+        for (align, width_px, budget_px) in [
+            (Align::Inner, 4.0, 0.0),
+            (Align::Outer, 4.0, 0.0),
+            (Align::Inner, 4.0, 0.25),
+            (Align::Outer, 12.0, 0.25),
+            (Align::Inner, 12.0, 0.25),
+        ] {
+            let width_m = width_px * px_m;
+            stage.set(
+                0,
+                stroked(Stroke {
+                    width: Length::Metres(width_m as f32),
+                    align,
+                    ..Default::default()
+                }),
+            );
+            let painted = stage.draw_within(&surface, budget_px);
+            let outer_m = if align == Align::Inner { 0.0 } else { width_m };
+            let band = outer_m - width_m..outer_m;
+            let wanted = shares(&surface, &zone, |outside_m| band.contains(&outside_m));
+            let (rms, worst, mean) = compare(&painted.texels, &wanted);
+            println!(
+                "{height_m} m, {} deg, {align:?} {width_px} px, budget {budget_px}: rms {rms:.3} worst \
+                 {worst:.3} mean {mean:.4}",
+                pose.pitch_deg
+            );
+            assert!(rms <= 0.08 && worst <= 0.3, "{rms} {worst}");
+            assert!((mean - 1.0).abs() <= 0.04, "{mean}");
         }
     }
 }
