@@ -104,12 +104,13 @@ fn fill_of(sums: vec4<f32>) -> u32 {
     return select(INVALID, id, in_range && are_checked(id, found));
 }
 
-// Steps to the pixel itself, the neighbours beside it and those across its corners, and one more: two bits
-// each.
-const STEPS_X: u32 = 139617u;
-const STEPS_Y: u32 = 164373u;
+// Steps to the pixel itself, then around it from its left to its left, and one more: two bits each.
+const STEPS_X: u32 = 27201u;
+const STEPS_Y: u32 = 435205u;
 
-// The fill at a pixel, or at its nearest neighbour with a valid sum.
+// The fill at a pixel. Where its sums are not valid, a boundary passes through it: the fill that two of its
+// neighbours show, next to each other but for invalid ones. On either side of a boundary there are three. What
+// one shows alone may be thinner than a pixel, and not be here; it is taken if there is nothing else.
 fn fill_at(pixel: vec2<i32>, sample: u32) -> u32 {
     let last = vec2<i32>(known.zw);
     var fill = INVALID;
@@ -119,9 +120,11 @@ fn fill_at(pixel: vec2<i32>, sample: u32) -> u32 {
     loop {
         let way = (vec2<u32>(STEPS_X, STEPS_Y) >> vec2<u32>(2u * step)) & vec2<u32>(3u);
         let near = clamp(pixel + vec2<i32>(way) - 1, vec2(0), last);
-        fill = fill_of(load_planes(near, sample));
+        let found = fill_of(load_planes(near, sample));
+        let settled = found != INVALID && (step == 0u || found == fill);
+        fill = select(found, fill, found == INVALID);
         step += 1u;
-        if fill != INVALID || step == 9u {
+        if settled || step == 10u {
             break;
         }
     }

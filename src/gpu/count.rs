@@ -6,7 +6,7 @@ use crate::{
     frame::select::{CapRun, LayerDraws},
     frame::volumes::{Volume, Walls},
     gpu::filled_buffer::FilledBuffer as _,
-    gpu::fixed_function::ONE_COUNTED,
+    gpu::fixed_function::{NONE_COUNTED, ONE_COUNTED},
     gpu::gpu_mesh::GpuMesh,
     gpu::pipelines::{Input, Key, Pipelines},
     gpu::planes::Planes,
@@ -252,15 +252,15 @@ impl Recorder<'_> {
         let attachment = wgpu::RenderPassDepthStencilAttachment {
             view: stencil,
             depth_ops: None,
+            // Of the layer before, rejected pixels are left.
             stencil_ops: Some(wgpu::Operations {
-                load: wgpu::LoadOp::Load,
+                load: wgpu::LoadOp::Clear(0),
                 store: wgpu::StoreOp::Store,
             }),
         };
         // Counting writes no colour but keeps the targets attached: one pass serves all fills.
         let mut pass = begin(encoder, "globefill stencil", Some(target), attachment);
         self.begin_statistics(&mut pass, self.query(index));
-        pass.set_stencil_reference(ONE_COUNTED);
         for drawn in &self.meshes {
             pass.set_bind_group(0, &drawn.view.frame_group, &[]);
             for volume in &drawn.view.volumes[index] {
@@ -300,6 +300,10 @@ impl Recorder<'_> {
                 projection: self.prepared.projection,
             },
         };
+        pass.set_stencil_reference(match stage {
+            Stage::Count | Stage::Cover => ONE_COUNTED,
+            Stage::Reject => NONE_COUNTED,
+        });
         pass.set_bind_group(1, &layer.mesh_group, &[]);
         pass.set_index_buffer(drawn.gpu.cap_indices.slice(..), wgpu::IndexFormat::Uint32);
         // The bottom cap is the top's triangles seen from below.

@@ -6,6 +6,7 @@ use crate::{
     frame::code::{CodeShape, MAX_PLANES},
     gpu::fixed_function::{
         ADD, COPY_FORMAT, STENCIL_FORMAT, copy_format, counting_stencil, depth_stencil, painting,
+        rejecting,
     },
     gpu::planes::Planes,
     gpu::projection::{FAR_PLANE_FEATURES, Projection},
@@ -219,7 +220,7 @@ impl Pipelines {
             } => {
                 let mut recipe = self.cover_recipe(input, planes, projection);
                 recipe.fragment = Some(self.planes_entry("fs_cover"));
-                recipe.depth_stencil = Some(painting(wgpu::CompareFunction::Equal));
+                recipe.depth_stencil = Some(painting());
                 recipe.build(device, self.options.sample_count)
             }
             Key::Reject {
@@ -233,7 +234,7 @@ impl Pipelines {
                     // Nothing is added to a mixture there; only the stencil is cleared.
                     recipe.targets = self.targets(planes, None, wgpu::ColorWrites::empty());
                 }
-                recipe.depth_stencil = Some(painting(wgpu::CompareFunction::Less));
+                recipe.depth_stencil = Some(rejecting(!planes.weights));
                 recipe.build(device, self.options.sample_count)
             }
             Key::CopyDepth {
