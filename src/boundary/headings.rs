@@ -10,9 +10,11 @@ use crate::{
     region::EdgeKind,
 };
 
-/// Headings nearer than this, radians, are not told apart where curved edges leave a node.
+/// Headings nearer than this, radians, are not told apart where curves of different kinds leave a node: they
+/// bend differently.
 const UNCLEAR_RAD: f64 = 1e-6;
-/// Rounding of positions, metres, which blurs the headings of short edges more than that.
+/// Rounding of positions, metres, which blurs the headings of short edges more than that, and those of one
+/// kind.
 const ROUNDING_M: f64 = 4e-9;
 
 /// Sorts edges that start at one node counter-clockwise, seen from outside the ellipsoid. Answers
@@ -39,7 +41,15 @@ pub(crate) fn sort_counter_clockwise(
     } else {
         first_step_m(ellipsoid, graph, edges)
     };
-    let unclear_rad = UNCLEAR_RAD.max(ROUNDING_M / step_m);
+    let blurred_rad = ROUNDING_M / step_m;
+    let unclear_rad = |a: DirectedEdge, b: DirectedEdge| {
+        // Two curves of one kind that leave a node in different directions part there for good.
+        if !at_pole && are_alike(graph, a, b) {
+            blurred_rad
+        } else {
+            UNCLEAR_RAD.max(blurred_rad)
+        }
+    };
     let heading = |edge| {
         if at_pole {
             polar_heading(graph, edge)
@@ -53,14 +63,20 @@ pub(crate) fn sort_counter_clockwise(
         *place = *edge;
     }
     let close = |a: &((f64, f64), DirectedEdge), b: &((f64, f64), DirectedEdge)| {
-        let tied = ((b.0.0 - a.0.0).abs()) < unclear_rad;
+        let tied = (b.0.0 - a.0.0).abs() < unclear_rad(a.1, b.1);
         tied && !(at_pole && straight && b.0.1 != a.0.1)
     };
     let ring_closes = sorted.len() > 2 && {
-        let (low, high) = (sorted[0].0.0, sorted[sorted.len() - 1].0.0);
-        low + std::f64::consts::TAU - high < unclear_rad
+        let (low, high) = (sorted[0], sorted[sorted.len() - 1]);
+        low.0.0 + std::f64::consts::TAU - high.0.0 < unclear_rad(low.1, high.1)
     };
     !ring_closes && !sorted.windows(2).any(|pair| close(&pair[0], &pair[1]))
+}
+
+/// Whether two edges are edges of one kind.
+fn are_alike(graph: &BoundaryGraph, a: DirectedEdge, b: DirectedEdge) -> bool {
+    let (a, b) = (graph.walk(a), graph.walk(b));
+    a.is_also(b.kind) || b.is_also(a.kind)
 }
 
 /// Straight edges by their direction on the lon/lat plane, exactly, from east.
@@ -176,6 +192,22 @@ mod tests {
                 &[(-170.0, -80.0), (180.0, -1.0), (60.0, -80.0), (-3.0, -70.0)],
             );
         }
+    }
+
+    /// A rhumb line along a parallel and one that ends 2e-6° north of it, half the way round the Earth.
+    #[test]
+    fn directions_of_one_kind_are_told_apart() {
+        let mut graph = BoundaryGraph::default();
+        let from = LonLat::new(20.0, 86.0);
+        let tips = [(-160.0, 86.0), (-159.92, 86.000_002), (20.0, 80.0)];
+        let mut edges = tips.map(|(lon_deg, lat_deg)| {
+            let to = LonLat::new(lon_deg, lat_deg);
+            graph
+                .insert_curve(&Curve::between(EdgeKind::Rhumb, from, to))
+                .unwrap()
+        });
+        let ellipsoid = Ellipsoid::WGS84;
+        assert!(sort_counter_clockwise(&ellipsoid, &graph, &mut edges));
     }
 
     #[test]

@@ -15,7 +15,7 @@ mod charts;
 #[path = "../common/mod.rs"]
 mod common;
 mod gate;
-mod known_issues;
+mod once_failed;
 mod placement;
 mod real;
 mod shape;
